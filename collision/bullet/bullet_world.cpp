@@ -92,7 +92,8 @@ BulletWorld::~BulletWorld() {
   for (auto& [id, hinge] : hinges_) world_.removeConstraint(hinge->constraint.get());
   for (auto& [id, cable] : cables_) world_.removeConstraint(&cable->constraint);
   for (const BodyId id : order_) world_.removeRigidBody(body(id.value).rigid.get());
-  for (auto& [id, obstacle] : obstacles_) world_.removeCollisionObject(obstacle->fixed.get());
+  for (auto& [id, obstacle] : obstacles_)
+    if (obstacle->fixed) world_.removeCollisionObject(obstacle->fixed.get());
   remove_ground();
 }
 
@@ -199,6 +200,10 @@ ObstacleId BulletWorld::add_obstacle(const ObstacleDescription& description) {
   obstacle->kind = Touched::Kind::obstacle;
   obstacle->id = next_obstacle_;
   obstacle->frame = frame_of_only_box(description.parts).value_or(unturned);
+  if (description.parts.empty()) {  // hinges alone hold to it, and those are fixed in space here
+    obstacles_.emplace(next_obstacle_, std::move(obstacle));
+    return {next_obstacle_++};
+  }
   make_parts(description.parts, owner, polyhedra_, *obstacle);
   obstacle->fixed = std::make_unique<btCollisionObject>();
   btCollisionObject& fixed = *obstacle->fixed;
@@ -215,6 +220,10 @@ ObstacleId BulletWorld::add_obstacle(const ObstacleDescription& description) {
 
 void BulletWorld::remove_obstacle(ObstacleId id) {
   Obstacle& gone = obstacle(id.value);
+  if (!gone.fixed) {
+    obstacles_.erase(id.value);
+    return;
+  }
   wake_touching(*gone.object);
   world_.forget_foreseen_contacts();
   forget_ignored_of(Touched::Kind::obstacle, id.value);
@@ -225,6 +234,7 @@ void BulletWorld::remove_obstacle(ObstacleId id) {
 
 void BulletWorld::move_obstacle(ObstacleId id, const Pose& pose) {
   Obstacle& moved = obstacle(id.value);
+  if (!moved.fixed) return;
   wake_touching(*moved.object);
   moved.fixed->setWorldTransform(to_bullet(pose) * moved.frame);
   world_.updateSingleAabb(moved.fixed.get());

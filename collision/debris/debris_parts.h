@@ -66,6 +66,12 @@ struct DebrisObstacle : TouchingSolid {
 struct DebrisHinge {
   HingeRows rows;
   std::int64_t body = -1, other = -1;
+  std::int64_t holder = -1;  ///< an obstacle; -1: none
+  Vec3 point_on_holder = Vec3::Zero();
+  Mat3 axes_on_holder = Mat3::Identity();  ///< columns; both in the obstacle's own axes
+  /// What the holder got in this part of the step, where it moves: N s, and N m s about its pose's position.
+  Vec3 impulse = Vec3::Zero(), angular_impulse = Vec3::Zero();
+  bool pulled = false;  ///< ... and whether it got any
   Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
   double work_lost = 0;
 

@@ -40,6 +40,8 @@ Island DebrisRest::quiet_part(const Island& island) const {
   for (const std::uint32_t index : island.pairs)
     if (const PairEnds& ends = scene_.pairs.ends(index); moving_obstacle(scene_.pairs, ends))
       stay.erase(scene_.pairs.collider(ends.first).solid);
+  for (const DebrisHinge* hinge : island.hinges)
+    if (scene_.moving_holder(*hinge)) stay.erase(&scene_.body(hinge->body));
   for (bool again = true; again;) {  // what hangs together sleeps together
     again = false;
     for (const DebrisHinge* hinge : island.hinges) {

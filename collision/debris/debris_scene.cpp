@@ -98,6 +98,12 @@ void DebrisScene::wake_hinged() {
   }
 }
 
+DebrisObstacle* DebrisScene::moving_holder(const DebrisHinge& hinge) const {
+  if (hinge.holder < 0) return nullptr;
+  DebrisObstacle& on = obstacle(hinge.holder);
+  return on.moves ? &on : nullptr;
+}
+
 bool DebrisScene::awake(const NearPair& pair) const {
   return awake(*pairs.collider(pair.first).solid) || awake(*pairs.collider(pair.second).solid);
 }

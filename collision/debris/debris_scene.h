@@ -36,6 +36,8 @@ struct DebrisScene {
   void wake_all();
   void wake_touching(const Solid& solid);
   void wake_hinged();
+  /// The obstacle at which it hangs, where that moves; else null.
+  [[nodiscard]] DebrisObstacle* moving_holder(const DebrisHinge& hinge) const;
   [[nodiscard]] bool all_awake() const { return awake_count == order.size(); }
   [[nodiscard]] bool awake(const NearPair& pair) const;
   [[nodiscard]] static bool awake(const Solid& solid) {

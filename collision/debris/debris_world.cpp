@@ -145,7 +145,7 @@ ObstacleId DebrisWorld::add_obstacle(const ObstacleDescription& description) {
   made->kind = Touched::Kind::obstacle;
   made->id = next_obstacle_;
   made->frame = frame_of_only_box(description.parts).value_or(unturned);
-  make_parts(description.parts, owner, polyhedra_, *made);
+  if (!description.parts.empty()) make_parts(description.parts, owner, polyhedra_, *made);
   make_shapes(description.parts, *made);
   made->pose = description.pose;
   made->at = made->placement();
@@ -161,6 +161,8 @@ ObstacleId DebrisWorld::add_obstacle(const ObstacleDescription& description) {
 void DebrisWorld::remove_obstacle(ObstacleId id) {
   DebrisObstacle& gone = scene_.obstacle(id.value);
   scene_.wake_touching(gone);
+  wake_hung_at(gone);
+  let_go_of(gone);
   ignored_.forget(Touched::Kind::obstacle, id.value);
   remove_contacts_of(Touched::Kind::obstacle, id.value);
   for (const std::uint32_t collider : gone.colliders) scene_.pairs.remove(collider);
@@ -171,6 +173,7 @@ void DebrisWorld::remove_obstacle(ObstacleId id) {
 void DebrisWorld::move_obstacle(ObstacleId id, const Pose& pose) {
   DebrisObstacle& moved = scene_.obstacle(id.value);
   scene_.wake_touching(moved);
+  wake_hung_at(moved);
   moved.pose = pose;
   moved.at = moved.placement();
   moved.add_way();

@@ -67,6 +67,8 @@ class DebrisWorld final : public World {
   void update_moving(double dt, MovingStructure& structure);
   void hand_over(double dt, std::size_t told, MovingStructure& structure);
   void remove_contacts_of(Touched::Kind kind, std::int64_t id);
+  void wake_hung_at(const DebrisObstacle& holder);
+  void let_go_of(const DebrisObstacle& holder);
   std::int64_t next_obstacle_ = 0, next_hinge_ = 0, next_cable_ = 0;
   PolyhedronStore polyhedra_;
 

@@ -24,6 +24,10 @@ HingeId DebrisWorld::add_hinge(const HingeDescription& description) {
   DebrisBody* other = description.other ? &scene_.body(description.other->value) : nullptr;
   if (other == &held_body)
     throw std::invalid_argument(name + ": it joins body " + std::to_string(held_body.id) + " to itself");
+  const DebrisObstacle* on = description.holder ? &scene_.obstacle(description.holder->value) : nullptr;
+  if (other && on)
+    throw std::invalid_argument(name + ": it joins body " + std::to_string(held_body.id) + " to body " +
+                                std::to_string(other->id) + " and to an obstacle; accepted is one of the two");
   auto made = std::make_unique<DebrisHinge>();
   made->body = held_body.id;
   made->other = other ? other->id : -1;
@@ -35,6 +39,12 @@ HingeId DebrisWorld::add_hinge(const HingeDescription& description) {
   rows.point_in_holder = holder.turn.transpose() * (description.point - holder.position);
   rows.axes_in_body = held_body.at.turn.transpose() * axes;
   rows.axes_in_holder = holder.turn.transpose() * axes;
+  if (on) {
+    const Eigen::Quaterniond back = on->pose.orientation.conjugate();
+    made->holder = on->id;
+    made->point_on_holder = back * (description.point - on->pose.position);
+    made->axes_on_holder = back * axes;
+  }
   held_body.hinges.insert(next_hinge_);
   if (other) other->hinges.insert(next_hinge_);
   scene_.wake_up(held_body);
@@ -51,6 +61,23 @@ void DebrisWorld::remove_hinge(HingeId id) {
     wake({end});
   }
   scene_.hinges.erase(id.value);
+}
+
+void DebrisWorld::wake_hung_at(const DebrisObstacle& holder) {
+  for (auto& [id, hinge] : scene_.hinges)
+    if (hinge->holder == holder.id) scene_.wake_up(scene_.body(hinge->body));
+}
+
+/// They hold on where they are, fixed in space.
+void DebrisWorld::let_go_of(const DebrisObstacle& holder) {
+  for (auto& [id, hinge] : scene_.hinges) {
+    if (hinge->holder != holder.id) continue;
+    hinge->holder = -1;
+    hinge->pulled = false;
+    hinge->impulse = hinge->angular_impulse = Vec3::Zero();
+    hinge->rows.point_in_holder = holder.pose * hinge->point_on_holder;
+    hinge->rows.axes_in_holder = holder.pose.orientation * hinge->axes_on_holder;
+  }
 }
 
 double DebrisWorld::hinge_work_lost(HingeId id) const {

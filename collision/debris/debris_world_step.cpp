@@ -104,7 +104,7 @@ void DebrisWorld::update_moving(double dt, MovingStructure& structure) {
 void DebrisWorld::hand_over(double dt, std::size_t told, MovingStructure& structure) {
   const std::vector<Contact> own(report_.all().begin() + static_cast<std::ptrdiff_t>(told), report_.all().end());
   stepping_ = true;
-  structure.advance(dt, own);
+  structure.advance(dt, own, moving_.take_pulls());
   stepping_ = false;
 }
 
@@ -175,7 +175,8 @@ void DebrisWorld::gather_islands() {
   std::vector<IslandParts::Hung> hung;
   for (auto& [id, hinge] : scene_.hinges)
     if (DebrisBody& one = scene_.body(hinge->body); !one.asleep)
-      hung.push_back({hinge.get(), &one, hinge->other >= 0 ? &scene_.body(hinge->other) : nullptr});
+      hung.push_back(
+          {hinge.get(), &one, hinge->other >= 0 ? &scene_.body(hinge->other) : nullptr, scene_.moving_holder(*hinge)});
   std::vector<IslandParts::Tied> tied;
   for (auto& [id, cable] : scene_.cables)
     if (DebrisBody& one = scene_.body(cable->body); !one.asleep) tied.push_back({cable.get(), &one});
@@ -187,7 +188,7 @@ void DebrisWorld::solve(std::span<Island* const> islands, int substeps, double d
   solved_.fill(islands, dt, substeps);
   solved_.run(dt, substeps);
   report_.add(solved_.solver().contacts(), dt);
-  moving_.read_motion(solved_.solver(), dt);
+  moving_.read_motion(solved_.solver(), islands, dt);
   solved_.update_bodies(dt);
   report_.account_work(islands, dt);
   solved_.read_joints(islands, dt * parts_);

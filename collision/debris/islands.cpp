@@ -32,6 +32,13 @@ DebrisBody* awake_body(const NearPairs& pairs, std::uint32_t collider) {
   return one->asleep ? nullptr : one;
 }
 
+void join_by(DebrisObstacle& carrier, const DebrisBody& body, DisjointSets& sets) {
+  if (carrier.island < 0)
+    carrier.island = body.island;
+  else
+    sets.join(body.island, carrier.island);
+}
+
 void join_touching(const IslandParts& parts, DisjointSets& sets) {
   for (const std::uint32_t index : parts.touching) {
     const PairEnds& ends = parts.pairs.ends(index);
@@ -40,11 +47,7 @@ void join_touching(const IslandParts& parts, DisjointSets& sets) {
     Solid* const second = parts.pairs.collider(ends.second).solid;
     if (!a || second->kind != Touched::Kind::obstacle) continue;
     auto* const carrier = static_cast<DebrisObstacle*>(second);
-    if (!carrier->moves) continue;
-    if (carrier->island < 0)
-      carrier->island = a->island;
-    else
-      sets.join(a->island, carrier->island);
+    if (carrier->moves) join_by(*carrier, *a, sets);
   }
 }
 
@@ -73,8 +76,10 @@ std::vector<Island> find_islands(const IslandParts& parts) {
   for (std::size_t i = 0; i < parts.awake.size(); ++i) parts.awake[i]->island = static_cast<int>(i);
   DisjointSets sets(parts.awake.size());
   join_touching(parts, sets);
-  for (const IslandParts::Hung& hung : parts.hinges)
+  for (const IslandParts::Hung& hung : parts.hinges) {
     if (hung.other) sets.join(hung.body->island, hung.other->island);
+    if (hung.carrier) join_by(*hung.carrier, *hung.body, sets);
+  }
   std::vector<Island> islands = number(parts.awake, sets);
   const auto of = [&](const DebrisBody& one) -> Island& { return islands[static_cast<std::size_t>(one.island)]; };
   for (const std::uint32_t index : parts.touching) {
@@ -86,7 +91,11 @@ std::vector<Island> find_islands(const IslandParts& parts) {
     if (const DebrisObstacle* carrier = moving_obstacle(parts.pairs, ends))
       island.carried = island.carried || carrier->speed() > parts.carries_from;
   }
-  for (const IslandParts::Hung& hung : parts.hinges) of(*hung.body).hinges.push_back(hung.hinge);
+  for (const IslandParts::Hung& hung : parts.hinges) {
+    Island& island = of(*hung.body);
+    island.hinges.push_back(hung.hinge);
+    if (hung.carrier) island.carried = island.carried || hung.carrier->speed() > parts.carries_from;
+  }
   for (const IslandParts::Tied& tied : parts.cables) of(*tied.body).cables.push_back(tied.cable);
   return islands;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Bodies that are solved together: those that touch or hang together, or touch the same obstacle that moves. What
-// stands still, or sleeps, joins none.
+// Bodies that are solved together: those that touch or hang together, or touch or hang at the same obstacle that
+// moves. What stands still, or sleeps, joins none.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,6 +27,7 @@ struct IslandParts {
   struct Hung {
     DebrisHinge* hinge;
     DebrisBody *body, *other;  ///< other: null, where it hangs on nothing that is a body
+    DebrisObstacle* carrier;   ///< an obstacle that moves, at which it hangs, or null
   };
   std::span<const Hung> hinges;
   struct Tied {

@@ -7,13 +7,14 @@
 
 namespace topple::collision {
 
-/// Those near bodies are asked for; what moved before and is near none any more is left where it is.
 void MovingObstacles::update(double dt, MovingStructure& structure) {
   std::vector<std::int64_t> near;
   for (const std::uint32_t index : scene_.pairs.order()) {
     const Solid* second = scene_.pairs.collider(scene_.pairs.pair(index).second).solid;
     if (second->kind == Touched::Kind::obstacle) near.push_back(second->id);
   }
+  for (const auto& [id, hinge] : scene_.hinges)
+    if (hinge->holder >= 0) near.push_back(hinge->holder);
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
   const std::vector<std::int64_t> before = scene_.moving_obstacles;
@@ -93,35 +94,39 @@ void MovingObstacles::stand_still(DebrisObstacle& one) {
   }
 }
 
-/// Obstacles that the island touches, as bodies of the solver.
 void MovingObstacles::add_to(StepSolver& solver, const Island& island, double dt, double substep) {
   for (const std::uint32_t index : island.pairs) {
     Solid* const second = scene_.pairs.collider(scene_.pairs.pair(index).second).solid;
     if (second->kind != Touched::Kind::obstacle) continue;
     auto& one = static_cast<DebrisObstacle&>(*second);
-    if (!one.moves || one.solver > 0) continue;
-    const Eigen::SelfAdjointEigenSolver<Mat3> principal(one.motion.inertia);
-    SolverBody moving;
-    moving.at = {one.pose.position, principal.eigenvectors()};
-    if (moving.at.turn.determinant() < 0) moving.at.turn.col(2) *= -1;
-    moving.inverse_root_mass = std::sqrt(one.gives_way / one.motion.mass);
-    moving.inverse_root_moments = std::sqrt(one.gives_way) * principal.eigenvalues().cwiseSqrt().cwiseInverse();
-    const double by_force = one.gives_way / one.motion.mass;
-    const Vec3 by_moment = moving.at.turn * moving.inverse_root_moments.cwiseProduct(moving.scaled_moment(one.moment));
-    // As it went on, without what touched it then.
-    moving.acceleration = one.motion.acceleration - by_force * one.force;
-    moving.angular_acceleration = one.motion.angular_acceleration - by_moment;
-    // The solver begins half a sub-step before the part does; there what lasts acted already.
-    moving.velocity =
-        one.motion.velocity - moving.acceleration * (dt / 2) - one.lasting * by_force * one.force * (substep / 2);
-    moving.spin =
-        one.motion.angular_velocity - moving.angular_acceleration * (dt / 2) - one.lasting * by_moment * (substep / 2);
-    one.solver = solver.add(moving);
+    if (one.moves && one.solver <= 0) add(one, solver, dt, substep);
   }
+  for (const DebrisHinge* hinge : island.hinges)
+    if (DebrisObstacle* one = scene_.moving_holder(*hinge); one && one->solver <= 0) add(*one, solver, dt, substep);
+}
+
+void MovingObstacles::add(DebrisObstacle& one, StepSolver& solver, double dt, double substep) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> principal(one.motion.inertia);
+  SolverBody moving;
+  moving.at = {one.pose.position, principal.eigenvectors()};
+  if (moving.at.turn.determinant() < 0) moving.at.turn.col(2) *= -1;
+  moving.inverse_root_mass = std::sqrt(one.gives_way / one.motion.mass);
+  moving.inverse_root_moments = std::sqrt(one.gives_way) * principal.eigenvalues().cwiseSqrt().cwiseInverse();
+  const double by_force = one.gives_way / one.motion.mass;
+  const Vec3 by_moment = moving.at.turn * moving.inverse_root_moments.cwiseProduct(moving.scaled_moment(one.moment));
+  // As it went on, without what touched it then.
+  moving.acceleration = one.motion.acceleration - by_force * one.force;
+  moving.angular_acceleration = one.motion.angular_acceleration - by_moment;
+  // The solver begins half a sub-step before the part does; there what lasts acted already.
+  moving.velocity =
+      one.motion.velocity - moving.acceleration * (dt / 2) - one.lasting * by_force * one.force * (substep / 2);
+  moving.spin =
+      one.motion.angular_velocity - moving.angular_acceleration * (dt / 2) - one.lasting * by_moment * (substep / 2);
+  one.solver = solver.add(moving);
 }
 
 /// After a part of a step: what was done to the obstacles, and how they would go on by themselves.
-void MovingObstacles::read_motion(const StepSolver& solver, double dt) {
+void MovingObstacles::read_motion(const StepSolver& solver, std::span<Island* const> islands, double dt) {
   if (scene_.moving_obstacles.empty()) return;
   for (const SolverContact& solved : solver.contacts()) {
     if (solved.second == 0) continue;
@@ -131,6 +136,16 @@ void MovingObstacles::read_motion(const StepSolver& solver, double dt) {
     one.impulse += solved.impulse;
     one.angular_impulse += (solved.centre - one.pose.position).cross(solved.impulse) + solved.moment;
   }
+  for (const Island* island : islands)
+    for (DebrisHinge* hinge : island->hinges) {
+      DebrisObstacle* const one = scene_.moving_holder(*hinge);
+      if (!one || hinge->rows.holder == 0) continue;
+      one->impulse -= hinge->rows.force_total;
+      one->angular_impulse += hinge->rows.moment_where_it_was;
+      hinge->impulse -= hinge->rows.force_total;
+      hinge->angular_impulse += hinge->rows.moment_where_it_was;
+      hinge->pulled = true;
+    }
   for (const std::int64_t id : scene_.moving_obstacles) {
     DebrisObstacle& one = scene_.obstacle(id);
     if (one.solver <= 0) continue;
@@ -140,20 +155,42 @@ void MovingObstacles::read_motion(const StepSolver& solver, double dt) {
   }
 }
 
-/// What sleeps on something that moves at a noticeable speed goes along, awake.
+std::vector<HingePull> MovingObstacles::take_pulls() {
+  std::vector<HingePull> pulls;
+  for (auto& [id, hinge] : scene_.hinges) {
+    if (!std::exchange(hinge->pulled, false)) continue;
+    const Pose& pose = scene_.obstacle(hinge->holder).pose;
+    HingePull& pull = pulls.emplace_back();
+    pull.hinge = {id};
+    pull.holder = {hinge->holder};
+    pull.point = pose * hinge->point_on_holder;
+    pull.impulse = std::exchange(hinge->impulse, Vec3::Zero());
+    pull.moment =
+        std::exchange(hinge->angular_impulse, Vec3::Zero()) - (pull.point - pose.position).cross(pull.impulse);
+  }
+  return pulls;
+}
+
+/// What sleeps on something that moves at a noticeable speed, or hangs at it, goes along, awake.
 void MovingObstacles::wake_carried() {
+  const auto carries = [&](const DebrisObstacle& one, const Vec3& place) {
+    const Vec3 velocity = one.motion.velocity + one.motion.angular_velocity.cross(Vec3(place - one.pose.position));
+    return velocity.norm() > scene_.settings.carries_from;
+  };
   if (scene_.moving_obstacles.empty()) return;
   for (const std::uint32_t index : scene_.touching) {
     const NearPair& pair = scene_.pairs.pair(index);
     const DebrisObstacle* const carrier = moving_obstacle(scene_.pairs, scene_.pairs.ends(index));
     auto* const first = static_cast<DebrisBody*>(scene_.pairs.collider(pair.first).solid);
     if (!carrier || !first->asleep) continue;
-    const DebrisObstacle& one = *carrier;
-    for (int i = 0; i < pair.manifold.count; ++i) {
-      const Vec3 arm = one.at * pair.manifold.points[static_cast<std::size_t>(i)].on_second - one.pose.position;
-      const Vec3 velocity = one.motion.velocity + one.motion.angular_velocity.cross(arm);
-      if (velocity.norm() > scene_.settings.carries_from) scene_.wake_up(*first);
-    }
+    for (int i = 0; i < pair.manifold.count; ++i)
+      if (carries(*carrier, carrier->at * pair.manifold.points[static_cast<std::size_t>(i)].on_second))
+        scene_.wake_up(*first);
+  }
+  for (const auto& [id, hinge] : scene_.hinges) {
+    const DebrisObstacle* const carrier = scene_.moving_holder(*hinge);
+    DebrisBody& hung = scene_.body(hinge->body);
+    if (carrier && hung.asleep && carries(*carrier, carrier->pose * hinge->point_on_holder)) scene_.wake_up(hung);
   }
 }
 

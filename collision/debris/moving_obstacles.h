@@ -8,6 +8,9 @@
 // for it; it grows where q is above 4/3. By how much the structure gives way its last two parts tell, where the force
 // on it changed between them by enough (a secant, as in partitioned schemes for fluids and structures; U. Kuettler, W.
 // A. Wall, Computational Mechanics 43 (2008), 61).
+#include <span>
+#include <vector>
+
 #include "debris/debris_scene.h"
 #include "debris/islands.h"
 #include "solver/step_solver.h"
@@ -19,18 +22,21 @@ class MovingObstacles {
  public:
   explicit MovingObstacles(DebrisScene& scene) : scene_(scene) {}
 
-  /// As a part of a step begins: those near bodies are asked for; what moved before and is near none any more is left
-  /// where it is. Pairs are those of now.
+  /// As a part of a step begins: those near bodies, and those at which bodies hang, are asked for; what moved before
+  /// and is near none any more is left where it is. Pairs are those of now.
   void update(double dt, MovingStructure& structure);
   void stand_still(DebrisObstacle& obstacle);
-  /// Those that the island touches, as bodies of the solver.
+  /// Those that the island touches or hangs at, as bodies of the solver.
   void add_to(StepSolver& solver, const Island& island, double dt, double substep);
-  /// After a part of a step.
-  void read_motion(const StepSolver& solver, double dt);
+  /// After a part of a step, in which these islands were solved.
+  void read_motion(const StepSolver& solver, std::span<Island* const> islands, double dt);
   void wake_carried();
+  /// What hinges did to them since they were told last.
+  [[nodiscard]] std::vector<HingePull> take_pulls();
 
  private:
   void update(DebrisObstacle& obstacle, const ObstacleMotion& motion, double dt);
+  static void add(DebrisObstacle& obstacle, StepSolver& solver, double dt, double substep);
   void estimate_compliance(DebrisObstacle& obstacle, const ObstacleMotion& now, const Vec3& force,
                            const Vec3& moment) const;
 

@@ -88,17 +88,27 @@ SolverContact SolvedIslands::solver_contact(std::uint32_t index) const {
 void SolvedIslands::add_contacts(const Island& island) {
   const std::span<SolverContact> made = solver_.add_contacts(island.pairs.size());
   region_.each(made.size(), kPairs, [&](std::size_t i) { made[i] = solver_contact(island.pairs[i]); });
-  for (DebrisHinge* hinge : island.hinges) {
-    hinge->rows.body = scene_.body(hinge->body).solver;
-    hinge->rows.holder = hinge->other < 0 ? 0 : scene_.body(hinge->other).solver;
-    solver_.add(&hinge->rows);
-  }
+  for (DebrisHinge* hinge : island.hinges) add(*hinge);
   for (DebrisCable* cable : island.cables) {
     cable->row.body = scene_.body(cable->body).solver;
     cable->row.impulse.setZero();
     cable->row.pulled = 0;
     solver_.add(&cable->row);
   }
+}
+
+void SolvedIslands::add(DebrisHinge& hinge) {
+  HingeRows& rows = hinge.rows;
+  rows.body = scene_.body(hinge.body).solver;
+  rows.holder = hinge.other < 0 ? 0 : scene_.body(hinge.other).solver;
+  if (hinge.holder >= 0) {
+    const DebrisObstacle& on = scene_.obstacle(hinge.holder);
+    rows.holder = on.moves ? std::max(0, on.solver) : 0;
+    const Placement at = rows.holder == 0 ? Placement{} : solver_.body(rows.holder).at;
+    rows.point_in_holder = at.turn.transpose() * (on.pose * hinge.point_on_holder - at.position);
+    rows.axes_in_holder = at.turn.transpose() * (on.pose.orientation * hinge.axes_on_holder);
+  }
+  solver_.add(&rows);
 }
 
 void SolvedIslands::update_bodies(double dt) {

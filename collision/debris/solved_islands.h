@@ -31,6 +31,7 @@ class SolvedIslands {
  private:
   [[nodiscard]] SolverContact solver_contact(std::uint32_t index) const;
   void add_contacts(const Island& island);
+  void add(DebrisHinge& hinge);
   void resist_rolling();
   /// Calls work(body) for all that the solver holds, side by side.
   template <class Work>

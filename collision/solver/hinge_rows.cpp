@@ -26,6 +26,7 @@ void HingeRows::begin_step(double h) {
   moment_total.setZero();
   body_moment.setZero();
   holder_moment.setZero();
+  moment_where_it_was.setZero();
 }
 
 void HingeRows::add_row(const Vec3& along, const Vec3& about, double gap, const SolverBody& of,
@@ -45,8 +46,8 @@ void HingeRows::prepare(const SolverBody& of, const SolverBody& other, const Mot
   const Vec3 body_turn = of.angular(body_moved), holder_turn = other.angular(holder_moved);
   body_arm_ = turned(of.at.turn * point_in_body, body_turn);
   holder_arm_ = turned(other.at.turn * point_in_holder, holder_turn);
-  const Vec3 gap = of.at.position + of.linear(body_moved) + body_arm_ -
-                   (other.at.position + other.linear(holder_moved) + holder_arm_);
+  holder_way_ = other.linear(holder_moved);
+  const Vec3 gap = of.at.position + of.linear(body_moved) + body_arm_ - (other.at.position + holder_way_ + holder_arm_);
   Mat3 body_axes, holder_axes;
   for (int i = 0; i < 3; ++i) {
     body_axes.col(i) = turned(of.at.turn * axes_in_body.col(i), body_turn);
@@ -129,6 +130,7 @@ void HingeRows::store_rest(const Rows& force, double dt) {
   moment_total.setZero();
   body_moment.setZero();
   holder_moment.setZero();
+  moment_where_it_was.setZero();
   impulse = force * dt;
   add_up();
   impulse = force;
@@ -144,6 +146,7 @@ void HingeRows::add_up() {
   moment_total += moment;
   body_moment += body_arm_.cross(force) + moment;
   holder_moment -= holder_arm_.cross(force) + moment;
+  moment_where_it_was -= (holder_way_ + holder_arm_).cross(force) + moment;
 }
 
 }  // namespace topple::collision

@@ -23,6 +23,7 @@ struct HingeRows {
   Vec3 force_total = Vec3::Zero();   ///< on the body over the step, N s, global
   Vec3 moment_total = Vec3::Zero();  ///< on the body about the joint's point, N m s
   Vec3 body_moment = Vec3::Zero(), holder_moment = Vec3::Zero();  ///< on each about its own centre, N m s
+  Vec3 moment_where_it_was = Vec3::Zero();  ///< on the holder about where its centre was when the step began, N m s
 
   void begin_step(double h);
   void end_step(double h) { impulse /= h; }
@@ -47,6 +48,7 @@ struct HingeRows {
   Rows gap_ = Rows::Zero();
   std::array<Vec3, most> along_, about_;  ///< of each row, global: unit force, or unit moment
   Vec3 body_arm_ = Vec3::Zero(), holder_arm_ = Vec3::Zero();
+  Vec3 holder_way_ = Vec3::Zero();  ///< of its centre since the step began, m
   Eigen::Matrix<double, most, most> inverse_mass_;
 };
 

@@ -11,7 +11,7 @@ void World::step(double dt, int parts, MovingStructure& structure) {
     contact.impulse /= parts;
     contact.moment /= parts;
   }
-  for (int part = 0; part < parts; ++part) structure.advance(dt / parts, share);
+  for (int part = 0; part < parts; ++part) structure.advance(dt / parts, share, {});
 }
 
 }  // namespace topple::collision

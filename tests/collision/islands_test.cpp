@@ -71,7 +71,7 @@ TEST_CASE("islands: bodies that touch or hang together are solved together, and 
   // A hinge joins the last two; a cable goes with its body.
   DebrisHinge hinge;
   DebrisCable cable;
-  row.hinges = {{&hinge, &row.bodies[5], &row.bodies[3]}};
+  row.hinges = {{&hinge, &row.bodies[5], &row.bodies[3], nullptr}};
   row.cables = {{&cable, &row.bodies[3]}};
   islands = row.find();
   REQUIRE(islands.size() == 2);

@@ -35,9 +35,10 @@ class Platform final : public MovingStructure {
   }
 
   /// Exactly, under the mean force of the part.
-  void advance(double dt, std::span<const Contact> contacts) override {
+  void advance(double dt, std::span<const Contact> contacts, std::span<const HingePull> pulls) override {
     double pushed = 0;
     for (const Contact& contact : contacts) pushed += contact.impulse.z();
+    for (const HingePull& pull : pulls) pushed += pull.impulse.z();
     impulse += pushed;
     const double before = height, was = speed, force = pushed / dt;
     if (stiffness > 0) {

@@ -45,7 +45,8 @@ std::vector<PartingContact> MovingParts::may_part(std::span<const collision::Con
   return found;
 }
 
-void MovingParts::advance(double dt, std::span<const collision::Contact> contacts) {
+void MovingParts::advance(double dt, std::span<const collision::Contact> contacts,
+                          std::span<const collision::HingePull> /*no hinge names a holder*/) {
   const StandingFrame& frame = *debris_.scene.frame;
   debris_.resting.act(contacts, debris_.obstacles, dt, *debris_.scene.frame, [&](collision::BodyId id) {
     return debris_.bodies.contains(id.value) && !debris_.scene.world->state(id).asleep;

@@ -17,7 +17,8 @@ class MovingParts final : public collision::MovingStructure {
       : debris_(debris), sums_(sums), substep_(std::move(substep)) {}
 
   [[nodiscard]] std::optional<collision::ObstacleMotion> motion(collision::ObstacleId obstacle) override;
-  void advance(double dt, std::span<const collision::Contact> contacts) override;
+  void advance(double dt, std::span<const collision::Contact> contacts,
+               std::span<const collision::HingePull> pulls) override;
 
  private:
   struct Known {

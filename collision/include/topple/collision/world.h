@@ -78,7 +78,7 @@ struct BodyDescription {
 
 /// A part of what stands: it does not move in the world, whatever pushes it.
 struct ObstacleDescription {
-  std::vector<ConvexPart> parts;  ///< at least one
+  std::vector<ConvexPart> parts;  ///< none: nothing touches it; hinges hold to it
   Pose pose;                      ///< of the obstacle in space; parts are relative to it
   double friction = 0.6;          ///< as BodyDescription's
   double restitution = 0.1;       ///< as BodyDescription's
@@ -146,16 +146,27 @@ struct ObstacleMotion {
   bool held_anew = false;
 };
 
+/// What a body did to an obstacle by a hinge, in a part of a step.
+struct HingePull {
+  HingeId hinge;                ///< whose `holder` it is
+  ObstacleId holder;            ///< that moves
+  Vec3 point = Vec3::Zero();    ///< of the holder, where the hinge was when the part began; m, global
+  Vec3 impulse = Vec3::Zero();  ///< on the holder, N s
+  Vec3 moment = Vec3::Zero();   ///< on the holder about the point, N m s
+};
+
 /// A structure that moves beside the bodies of a world, and shares the parts of a step with them.
 class MovingStructure {
  public:
   virtual ~MovingStructure() = default;
-  /// Nothing for an obstacle that stands still. Asked at the start of each part of a step.
+  /// Nothing for an obstacle that stands still. Asked at the start of each part of a step, of those near bodies and
+  /// those that hinges hold to.
   [[nodiscard]] virtual std::optional<ObstacleMotion> motion(ObstacleId obstacle) = 0;
   /// It moves on by `dt` (s) under what the bodies did to it meanwhile: contacts of this part of the step, not merged,
-  /// those of bodies that fell asleep apart. Bodies, obstacles and hinges may come and go in this call; contacts()
-  /// tells after the step of those that are gone as well.
-  virtual void advance(double dt, std::span<const Contact> contacts) = 0;
+  /// those of bodies that fell asleep apart; and what awake bodies pulled with on hinges whose holders move (none in
+  /// worlds where no holder does). Bodies, obstacles and hinges may come and go in this call; contacts() tells after
+  /// the step of those that are gone as well.
+  virtual void advance(double dt, std::span<const Contact> contacts, std::span<const HingePull> pulls) = 0;
 };
 
 /// Where a ray first hits.
@@ -166,11 +177,16 @@ struct RayHit {
   double distance = 0;         ///< m from the ray's start
 };
 
-/// A joint between a body and the standing structure (fixed in space) or another body, by the components that it holds.
-/// One or two free rotations leave the held ones no more than a right angle from where they began.
+/// A joint between a body and the standing structure (fixed in space, or an obstacle) or another body, by the
+/// components that it holds. One or two free rotations leave the held ones no more than a right angle from where they
+/// began.
 struct HingeDescription {
-  BodyId body;                                                   ///< that is held
-  std::optional<BodyId> other;                                   ///< none: fixed in space
+  BodyId body;                  ///< that is held
+  std::optional<BodyId> other;  ///< none: what stands
+  /// Of what stands (no `other` then): the hinge's place goes with it, and where it moves (MovingStructure) it gets the
+  /// hinge's impulses. None, or one that has been removed: fixed in space. Worlds that know no obstacles that move may
+  /// ignore it.
+  std::optional<ObstacleId> holder;
   Vec3 point = Vec3::Zero();                                     ///< global, now
   std::array<bool, 6> held{true, true, true, true, true, true};  ///< components x y z rx ry rz in `axes`
   Mat3 axes = Mat3::Identity();                                  ///< rows: joint axes in global components, now
@@ -219,9 +235,9 @@ class World {
   virtual void remove_body(BodyId body) = 0;
   /// It takes part from the next sweep or step on.
   virtual ObstacleId add_obstacle(const ObstacleDescription& description) = 0;
-  /// Bodies that lay on it wake.
+  /// Bodies that lay on it or hung at it wake; hinges hold on where they were.
   virtual void remove_obstacle(ObstacleId obstacle) = 0;
-  /// Bodies that touched it wake.
+  /// Bodies that touched it or hang at it wake.
   virtual void move_obstacle(ObstacleId obstacle, const Pose& pose) = 0;
   /// It holds from the next step on.
   virtual HingeId add_hinge(const HingeDescription& description) = 0;
@@ -229,7 +245,8 @@ class World {
   virtual void remove_hinge(HingeId hinge) = 0;
   /// Force and moment about the point (joint axes, mean of the last step) that the body exerts on what holds it.
   [[nodiscard]] virtual Eigen::Matrix<double, 6, 1> hinge_force(HingeId hinge) const = 0;
-  /// Energy that it took out of what it joins in the last step (velocities read at mid-step), J.
+  /// Energy that it took out of the bodies that it joins in the last step (velocities read at mid-step), J; what a
+  /// holder that moves got of it is in there.
   [[nodiscard]] virtual double hinge_work_lost(HingeId hinge) const = 0;
 
   /// Throws std::invalid_argument when its length is not above zero or the body is farther away than that.
