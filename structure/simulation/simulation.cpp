@@ -42,7 +42,7 @@ void Simulation::step() {
 
 Simulation::State::State(Building the_building, Scenario the_scenario, SimulationOptions the_options)
     : StageParts(std::move(the_building), std::move(the_scenario), std::move(the_options)) {
-  moving_parts = std::make_unique<MovingParts>(debris, sums, [this] { substep(); });
+  moving_parts = std::make_unique<MovingParts>(debris, hinges, sums, [this] { substep(); });
   if (scene.sways()) scene.frame->let_move(scene.scenario.step, scene.scenario.motion);
   panels.open();
 }
@@ -108,7 +108,10 @@ void Simulation::State::substep() {
 void Simulation::State::end_motion() {
   if (!scene.frame->pending() && scene.step > 1) return;
   record(scene.frame->end_move());
-  scene.timer.engine([&] { debris.obstacles.follow(*scene.frame, *scene.world); });
+  scene.timer.engine([&] {
+    debris.obstacles.follow(*scene.frame, *scene.world);
+    hinges.holds().follow();
+  });
 }
 
 /// The collision world moves what is awake, and what stands where it moves.

@@ -48,6 +48,11 @@ bool Hinges::hang(JointId joint, collision::BodyId id) {
   description.axes = member.axes * debris_.rotation(hung.member_hangs ? id : hung.holder).transpose();
   for (int c = 0; c < 6; ++c) description.held[static_cast<std::size_t>(c)] = scene_.building[joint].stiffness(c) != 0;
   if (std::find(description.held.begin(), description.held.end(), true) == description.held.end()) return false;
+  if (on_frame && scene_.sways()) {
+    const auto end = static_cast<std::size_t>(scene_.building[joint].end);
+    description.holder = hung.place =
+        holds_.hold(on, member.nodes[hung.member_hangs ? end : 1 - end], description.point);
+  }
   hung.axes = description.axes * debris_.rotation(hung.holder);
   hung.hinge = scene_.world->add_hinge(description);
   hung.load_key = --last_load_;
@@ -99,6 +104,7 @@ void Hinges::hang_on_what_left() {
 void Hinges::take_off(const Hung& hung) {
   scene_.frame->remove_contact_load(hung.load_key);
   scene_.world->remove_hinge(hung.hinge);
+  holds_.let_go(hung.place);
   hinges_.erase(hung.hinge.value);
 }
 
@@ -140,10 +146,12 @@ void Hinges::pull() {
     const Mat3 to_global = (hung.axes * debris_.rotation(hung.holder).transpose()).transpose();
     const Vec3 force = to_global * held.head<3>(), moment = to_global * held.tail<3>();
     const Utilisation used = utilisation_of(hung, force, moment);
+    const bool acted = std::exchange(hung.acted, false);
+    smooth(hung, force, moment);
     if (used.value > 1)
       over.emplace_back(hung, used);
-    else if (hung.holder.value < 0)
-      load_by(hung, force, moment);
+    else if (hung.holder.value < 0 && !acted)
+      load_by(hung);
   }
   for (const auto& [hung, used] : over) {
     JointBreak line;
@@ -172,19 +180,38 @@ Utilisation Hinges::utilisation_of(const Hung& hung, const Vec3& force, const Ve
                      scene_.strength_factors[static_cast<std::size_t>(hung.joint.index)]);
 }
 
-/// The smoothed pull on what stands, told when it has changed beyond a band.
-void Hinges::load_by(Hung& hung, const Vec3& force, const Vec3& moment) {
+void Hinges::smooth(Hung& hung, const Vec3& force, const Vec3& moment) const {
   const double share = std::min(1.0, scene_.scenario.step / debris_settings.smoothing_time);
   hung.force += share * (force - hung.force);
   hung.moment += share * (moment - hung.moment);
+}
+
+/// The smoothed pull on what stands, told when it has changed beyond a band.
+void Hinges::load_by(Hung& hung) {
   const double band =
       debris_settings.hinge_band * debris_.bodies.at(hung.body.value).rest.mass * scene_.building.gravity;
   const double arm = scene_.building[scene_.building[hung.joint].member].length;
   const double changed = (hung.force - hung.applied).norm() + (hung.moment - hung.moment_applied).norm() / arm;
   if (changed <= band) return;
-  hung.applied = hung.force;
-  hung.moment_applied = hung.moment;
-  scene_.frame->set_contact_load({hung.load_key, hold_of(hung.joint, hung.member_hangs), hung.force, hung.moment});
+  load(hung, hung.force, hung.moment);
+}
+
+void Hinges::load(Hung& hung, const Vec3& force, const Vec3& moment) {
+  hung.applied = force;
+  hung.moment_applied = moment;
+  scene_.frame->set_contact_load({hung.load_key, hold_of(hung.joint, hung.member_hangs), force, moment});
+}
+
+std::vector<collision::HingePull> Hinges::act(std::span<const collision::HingePull> pulls, double dt) {
+  std::vector<collision::HingePull> acted;
+  for (const collision::HingePull& pull : pulls) {
+    const auto found = hinges_.find(pull.hinge.value);
+    if (found == hinges_.end()) continue;
+    load(found->second, pull.impulse / dt, pull.moment / dt);
+    found->second.acted = true;
+    acted.push_back(pull);
+  }
+  return acted;
 }
 
 }  // namespace topple::structure

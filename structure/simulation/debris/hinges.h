@@ -3,11 +3,13 @@
 // freely in what is released and hold in the rest; what they hold with loads what they hang on, and one that comes to
 // its capacity breaks.
 #include <map>
+#include <span>
 #include <vector>
 
 #include "simulation/accounts/event_log.h"
 #include "simulation/accounts/running_sums.h"
 #include "simulation/debris/debris.h"
+#include "simulation/debris/standing_holds.h"
 
 namespace topple::structure {
 
@@ -15,7 +17,7 @@ class Hinges {
  public:
   /// All of it must outlive this.
   Hinges(Scene& scene, EventLog& log, RunningSums& sums, Debris& debris)
-      : scene_(scene), log_(log), sums_(sums), debris_(debris) {}
+      : scene_(scene), log_(log), sums_(sums), debris_(debris), holds_(scene) {}
 
   /// The body, a part that left, hangs on by these joints; those that find nothing to hang on have lost their hold.
   void hang_on(const std::vector<JointId>& joints, collision::BodyId id);
@@ -25,24 +27,34 @@ class Hinges {
   void hang_again(const std::vector<JointId>& joints);
   /// The body is about to go: it hangs on nothing any more, and nothing on it. Returns the joints of both kinds.
   std::vector<JointId> take_off(collision::BodyId id);
-  /// After the world has moved: what each holds with, whether it bears that, and what it does to what stands.
+  /// For a substep of `dt`: what moves bears what these pull with, as it is. Returns those that act, each about its
+  /// place.
+  std::vector<collision::HingePull> act(std::span<const collision::HingePull> pulls, double dt);
+  /// After the world has moved: what each holds with, whether it bears that, and what it does to what stands at rest.
   void pull();
+  /// Where they hold to what stands and moves.
+  [[nodiscard]] StandingHolds& holds() { return holds_; }
+  [[nodiscard]] const StandingHolds& holds() const { return holds_; }
 
  private:
   struct Hung {
     JointId joint;
     collision::HingeId hinge;
     collision::BodyId body, holder;  ///< holder -1: what stands
+    collision::ObstacleId place;     ///< of what stands, where that moves
     bool member_hangs = true;        ///< the joint's member is of the body, else its node
     Mat3 axes = Mat3::Identity();    ///< of the joint, in the holder's own frame
     std::int64_t load_key = 0;
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  ///< on the holder about the joint, smoothed
     Vec3 applied = Vec3::Zero(), moment_applied = Vec3::Zero();
+    bool acted = false;  ///< in substeps of this step: its smoothed pull does not act as well
   };
   bool hang(JointId joint, collision::BodyId id);
   void take_off(const Hung& hung);
   void pass_what_holds(collision::BodyId id, const Vec3& point, collision::BodyId holder);
-  void load_by(Hung& hung, const Vec3& force, const Vec3& moment);
+  void smooth(Hung& hung, const Vec3& force, const Vec3& moment) const;
+  void load_by(Hung& hung);
+  void load(Hung& hung, const Vec3& force, const Vec3& moment);
   [[nodiscard]] Utilisation utilisation_of(const Hung& hung, const Vec3& force, const Vec3& moment) const;
   [[nodiscard]] ContactPlace hold_of(JointId joint, bool member_hangs) const;
 
@@ -50,6 +62,7 @@ class Hinges {
   EventLog& log_;
   RunningSums& sums_;
   Debris& debris_;
+  StandingHolds holds_;
   std::map<std::int64_t, Hung> hinges_;  ///< by hinge
   std::int64_t last_load_ = 0;           ///< keys of their loads go down from -1
 };

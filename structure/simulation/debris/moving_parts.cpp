@@ -6,28 +6,39 @@
 
 namespace topple::structure {
 
-PartMotion MovingParts::velocity(Part part) const {
-  return rigid_velocity(*debris_.scene.frame, part, debris_.obstacles.middle(part));
+std::optional<PartMotion> MovingParts::velocity(collision::ObstacleId id) const {
+  const Part part = debris_.obstacles.part_of(id);
+  if (!part.valid()) return hinges_.holds().velocity(id);
+  const StandingFrame& frame = *debris_.scene.frame;
+  if (!frame.moves({part.member, part.panel})) return std::nullopt;
+  return rigid_velocity(frame, part, debris_.obstacles.middle(part));
+}
+
+/// And its mass.
+collision::ObstacleMotion MovingParts::place(collision::ObstacleId id) const {
+  const Part part = debris_.obstacles.part_of(id);
+  if (!part.valid()) return hinges_.holds().motion(id);
+  const MassProperties& own = part.member.valid() ? debris_.masses.of(part.member) : debris_.masses.of(part.panel);
+  collision::ObstacleMotion motion;
+  motion.pose = debris_.obstacles.carry(part, *debris_.scene.frame);
+  motion.mass = debris_settings.share_of_part * own.mass;
+  motion.inertia = debris_settings.share_of_part * own.inertia;
+  return motion;
 }
 
 std::optional<collision::ObstacleMotion> MovingParts::motion(collision::ObstacleId id) {
-  const Part part = debris_.obstacles.part_of(id);
-  const StandingFrame& frame = *debris_.scene.frame;
-  if (!part.valid() || !frame.moves({part.member, part.panel})) {
+  const std::optional<PartMotion> now = velocity(id);
+  if (!now) {
     known_.erase(id.value);
     return std::nullopt;
   }
   Known& known = known_[id.value];
-  known.velocity = velocity(part);
-  const MassProperties& own = part.member.valid() ? debris_.masses.of(part.member) : debris_.masses.of(part.panel);
-  collision::ObstacleMotion motion;
-  motion.pose = debris_.obstacles.carry(part, frame);
+  known.velocity = *now;
+  collision::ObstacleMotion motion = place(id);
   motion.velocity = known.velocity.moved;
   motion.angular_velocity = known.velocity.turned;
   motion.acceleration = known.acceleration.moved;
   motion.angular_acceleration = known.acceleration.turned;
-  motion.mass = debris_settings.share_of_part * own.mass;
-  motion.inertia = debris_settings.share_of_part * own.inertia;
   motion.held_anew = known.held_anew;
   return motion;
 }
@@ -46,11 +57,12 @@ std::vector<PartingContact> MovingParts::may_part(std::span<const collision::Con
 }
 
 void MovingParts::advance(double dt, std::span<const collision::Contact> contacts,
-                          std::span<const collision::HingePull> /*no hinge names a holder*/) {
+                          std::span<const collision::HingePull> pulls) {
   const StandingFrame& frame = *debris_.scene.frame;
   debris_.resting.act(contacts, debris_.obstacles, dt, *debris_.scene.frame, [&](collision::BodyId id) {
     return debris_.bodies.contains(id.value) && !debris_.scene.world->state(id).asleep;
   });
+  const std::vector<collision::HingePull> pulled = hinges_.act(pulls, dt);
   const std::vector<PartingContact> may_part = this->may_part(contacts);
   const std::uint64_t changes = frame.counters().segmentations;
   substep_();
@@ -58,16 +70,20 @@ void MovingParts::advance(double dt, std::span<const collision::Contact> contact
   sums_.ledger.lost_in_contacts += limit_parting(debris_, may_part, debris_.scene.scenario.debris.restitution);
   std::map<std::int64_t, Known> after;
   for (const auto& [id, known] : known_) {
-    const Part part = debris_.obstacles.part_of({id});
-    if (!part.valid() || !frame.moves({part.member, part.panel})) continue;
+    const std::optional<PartMotion> moves = velocity({id});
+    if (!moves) continue;
     Known now;
-    now.velocity = velocity(part);
+    now.velocity = *moves;
     now.acceleration.moved = (now.velocity.moved - known.velocity.moved) / dt;
     now.acceleration.turned = (now.velocity.turned - known.velocity.turned) / dt;
     now.held_anew = held_anew;
     after.emplace(id, now);
   }
-  // What contacts did to what moved on: not lost, and no work of gravity.
+  // What contacts and hinges did to what moved on: not lost, and no work of gravity.
+  const auto pass_on = [&](double work) {
+    sums_.passed_on += work;
+    sums_.ledger.lost_in_contacts -= work;
+  };
   for (const PartingContact& one : may_part) {
     const auto now = after.find(one.contact.other.obstacle.value);
     if (now == after.end()) continue;
@@ -75,8 +91,13 @@ void MovingParts::advance(double dt, std::span<const collision::Contact> contact
     const Vec3 arm = one.contact.point - debris_.obstacles.middle(one.part);
     const double work = one.contact.impulse.dot(one.velocity) / 2 +
                         one.contact.impulse.dot(velocity.moved + velocity.turned.cross(arm)) / 2;
-    sums_.passed_on += work;
-    sums_.ledger.lost_in_contacts -= work;
+    pass_on(work);
+  }
+  for (const collision::HingePull& one : pulled) {
+    const auto now = after.find(one.holder.value);
+    if (now == after.end()) continue;
+    const PartMotion &before = known_.at(one.holder.value).velocity, &then = now->second.velocity;
+    pass_on(one.impulse.dot(before.moved + then.moved) / 2 + one.moment.dot(before.turned + then.turned) / 2);
   }
   known_ = std::move(after);
 }

@@ -82,6 +82,15 @@ Vec6 StandingFrame::velocity(NodeId node) const {
   return moves ? state.motion->velocity(node) : Vec6(Vec6::Zero());
 }
 
+Eigen::Matrix<double, 6, 6> StandingFrame::mobility(NodeId node) const {
+  const State& state = *state_;
+  const int c = state.statics.component(node);
+  if (!state.moves(c) || !state.in_solver.holds(node)) return Eigen::Matrix<double, 6, 6>::Zero();
+  std::vector<StandingMotion::NodalForces> units;
+  for (int i = 0; i < 6; ++i) units.push_back({{node, Vec6::Unit(i)}});
+  return state.motion->mobility(c, units);
+}
+
 FrameEnergy StandingFrame::energy() const {
   FrameEnergy energy = state_->account.energy();
   if (!state_->motion) return energy;

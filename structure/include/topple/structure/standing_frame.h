@@ -260,6 +260,9 @@ class StandingFrame {
   [[nodiscard]] bool moves(const ContactPlace& place) const;
   /// m/s and rad/s, global axes; 0 at rest.
   [[nodiscard]] Vec6 velocity(NodeId node) const;
+  /// Velocity of a node for a unit impulse along and about each global axis (1/kg, 1/(kg m), 1/(kg m2)), before
+  /// anything has moved. Zero at rest.
+  [[nodiscard]] Eigen::Matrix<double, 6, 6> mobility(NodeId node) const;
   /// Something has left that take_detached() has not handed out.
   [[nodiscard]] bool has_detached() const;
   /// How what stands takes unit pushes at places on different parts, each along its direction, that are faster than its

@@ -1,0 +1,110 @@
+#include "simulation/debris/standing_holds.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/debris/debris_settings.h"
+
+namespace topple::structure {
+
+namespace {
+
+collision::Pose pose_of(const Vec3& at, const PartMotion& shift) {
+  collision::Pose pose;
+  pose.position = at + shift.moved;
+  const double angle = shift.turned.norm();
+  if (angle > 0) pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(angle, shift.turned / angle));
+  return pose;
+}
+
+/// Of a place on a rigid arm from the node.
+PartMotion rigid(const Vec6& node, const Vec3& arm) {
+  return {node.head<3>() + Vec3(node.tail<3>()).cross(arm), node.tail<3>()};
+}
+
+}  // namespace
+
+collision::ObstacleId StandingHolds::hold(const ContactPlace& place, NodeId fixed_to, const Vec3& point) {
+  for (auto& [id, other] : holds_) other.found_at.reset();  // it may give way under this one as well
+  Hold made;
+  made.place = place;
+  made.fixed_to = fixed_to;
+  const PartMotion shift = displacement(made);
+  made.origin = point - shift.moved;
+  made.followed = shift.moved;
+  collision::ObstacleDescription nothing_to_touch;
+  nothing_to_touch.pose = pose_of(made.origin, shift);
+  const collision::ObstacleId id = scene_.world->add_obstacle(nothing_to_touch);
+  holds_.emplace(id.value, made);
+  return id;
+}
+
+void StandingHolds::let_go(collision::ObstacleId obstacle) {
+  const auto found = holds_.find(obstacle.value);
+  if (found == holds_.end()) return;
+  scene_.world->remove_obstacle(obstacle);
+  holds_.erase(found);
+}
+
+PartMotion StandingHolds::displacement(const Hold& hold) const {
+  const StandingFrame& frame = *scene_.frame;
+  if (!hold.place.node.valid()) return rigid_displacement(frame, Part(hold.place.member), hold.place.point);
+  return rigid(frame.displacement(hold.place.node), hold.place.point - scene_.building[hold.place.node].position);
+}
+
+std::optional<PartMotion> StandingHolds::velocity(collision::ObstacleId obstacle) const {
+  const auto found = holds_.find(obstacle.value);
+  if (found == holds_.end() || !scene_.frame->moves(found->second.place)) return std::nullopt;
+  const Hold& hold = found->second;
+  if (!hold.place.node.valid()) return rigid_velocity(*scene_.frame, Part(hold.place.member), hold.place.point);
+  return rigid(scene_.frame->velocity(hold.place.node), hold.place.point - scene_.building[hold.place.node].position);
+}
+
+collision::ObstacleMotion StandingHolds::motion(collision::ObstacleId obstacle) {
+  Hold& hold = holds_.at(obstacle.value);
+  const std::uint64_t now = scene_.frame->counters().segmentations;
+  if (hold.found_at != now) find_mass(hold);
+  hold.found_at = now;
+  const PartMotion shift = displacement(hold);
+  hold.followed = shift.moved;
+  collision::ObstacleMotion motion;
+  motion.pose = pose_of(hold.origin, shift);
+  motion.mass = hold.mass;
+  motion.inertia = hold.inertia;
+  return motion;
+}
+
+/// What a free body must have at most to give way by as much as the node does at the first moment. A symmetric matrix
+/// is at most twice its two blocks on the diagonal; and where several hang at one node, each gives way under all.
+void StandingHolds::find_mass(Hold& hold) const {
+  // What does not give way in some way gets a mass all the same: shares of the others (1 m for a length), and 1/kg.
+  constexpr double of_turns = 1e-3, of_other = 1e-6, least = 1e-12;
+  Eigen::Matrix<double, 6, 6> mobility = scene_.frame->mobility(hold.fixed_to);
+  const Vec3 arm = hold.place.point - scene_.building[hold.fixed_to].position;
+  Eigen::Matrix<double, 6, 6> to_place = Eigen::Matrix<double, 6, 6>::Identity();
+  for (int k = 0; k < 3; ++k) to_place.block<3, 1>(0, 3 + k) = Vec3::Unit(k).cross(arm);
+  mobility = to_place * mobility * to_place.transpose();
+  const Mat3 turning = mobility.bottomRightCorner<3, 3>();
+  const auto largest = [](const Mat3& of) {
+    return std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat3>(of, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+  };
+  const double moves = largest(mobility.topLeftCorner<3, 3>()), turns = largest(turning);
+  const auto of_node = std::count_if(holds_.begin(), holds_.end(),
+                                     [&](const auto& one) { return one.second.fixed_to == hold.fixed_to; });
+  const double most = 2 * static_cast<double>(of_node);
+  hold.mass = 1 / (most * std::max({moves, of_other * turns, least}));
+  const double floor = std::max({of_turns * turns, of_other * moves, least});
+  hold.inertia = (most * (turning + floor * Mat3::Identity())).inverse();
+}
+
+void StandingHolds::follow() {
+  for (auto& [id, hold] : holds_) {
+    const PartMotion now = displacement(hold);
+    if (!((now.moved - hold.followed).norm() > debris_settings.follow)) continue;
+    hold.followed = now.moved;
+    scene_.world->move_obstacle({id}, pose_of(hold.origin, now));
+  }
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,48 @@
+#pragma once
+// Places of what stands, where that moves, at which bodies hang by hinges: obstacles that nothing touches. Each goes
+// with its node, or with its member as a rigid one.
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "simulation/debris/part_motion.h"
+#include "simulation/scene.h"
+
+namespace topple::structure {
+
+class StandingHolds {
+ public:
+  /// `scene` must outlive it.
+  explicit StandingHolds(Scene& scene) : scene_(scene) {}
+
+  /// For a hinge that holds there, at a node or at the end of a member that is still fixed to the node at the other
+  /// end, and that is at `point` now. What hangs there begins with the mean displacement of its part, and so somewhat
+  /// off: the obstacle is at the hinge, and moves as the place does.
+  [[nodiscard]] collision::ObstacleId hold(const ContactPlace& place, NodeId fixed_to, const Vec3& point);
+  /// The hinge is gone.
+  void let_go(collision::ObstacleId obstacle);
+  /// Of its place; nothing where it stands still, or for another obstacle.
+  [[nodiscard]] std::optional<PartMotion> velocity(collision::ObstacleId obstacle) const;
+  /// Where it is, and as how much mass it gives way at most; of one that moves.
+  [[nodiscard]] collision::ObstacleMotion motion(collision::ObstacleId obstacle);
+  /// Those off by DebrisSettings::follow go after what they are places of; to be called when what stands has moved.
+  void follow();
+
+ private:
+  struct Hold {
+    ContactPlace place;
+    NodeId fixed_to;
+    Vec3 origin = Vec3::Zero();             ///< m: where the hinge would be in the undeformed building
+    Vec3 followed = Vec3::Zero();           ///< m: displacement with which the world has it
+    std::optional<std::uint64_t> found_at;  ///< searches for connected parts when its mass was found
+    double mass = 0;                        ///< kg
+    Mat3 inertia = Mat3::Zero();            ///< kg m2, about the place
+  };
+  [[nodiscard]] PartMotion displacement(const Hold& hold) const;
+  void find_mass(Hold& hold) const;
+
+  Scene& scene_;
+  std::map<std::int64_t, Hold> holds_;  ///< by obstacle
+};
+
+}  // namespace topple::structure
