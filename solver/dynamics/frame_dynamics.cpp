@@ -109,6 +109,21 @@ void FrameDynamics::set_plastic_rotation(int beam, int end, int component, doubl
   state.stored_energy();
 }
 
+void FrameDynamics::turn_at_once(int beam, int end, int component, double turn, double dissipated) {
+  State& state = *state_;
+  const Eigen::Index place = 6 * end + component;
+  const double turned = plastic_rotations(beam)(place);
+  set_plastic_rotation(beam, end, component, turned);  // what changed before is taken over, and nothing else
+  const double before = state.stored_energy();
+  set_plastic_rotation(beam, end, component, turned + turn);
+  const double by_loads = state.fixed_end_of_loads(static_cast<std::size_t>(beam), true)(place) * turn;
+  DynamicEnergy& energy = state.ledger.terms();
+  energy.dissipated += dissipated;
+  energy.external_work += by_loads;
+  energy.struck += state.stored_energy() - before + dissipated - by_loads;
+  state.forget_motion();
+}
+
 Vec12 FrameDynamics::plastic_rotations(int beam) const { return state_->kinks.rotations(checked_beam(model(), beam)); }
 
 void FrameDynamics::set_mass_damping(double a0) {

@@ -17,17 +17,37 @@ void BodyImpact::follow() {
   for (Eigen::Index i = 0; i < local.size(); ++i)
     own = std::max(own, std::sqrt((body(i, i) + local(i)) / compliance(i, i)));
   const double fast = impact_settings.follows * own, slow = own / (impact_settings.follows * impact_settings.follows);
-  const auto reached = [&](Eigen::Index mode) {
-    constexpr double none = 1e-9;
-    for (Eigen::Index i = 0; i < local.size(); ++i)
-      if (std::pow(response.pushed(mode, i), 2) > none * local(i)) return true;
-    return false;
-  };
   const auto demands_of = [&](JointId joint) {
     const auto same = [joint](const auto& one) { return one.first == joint; };
     const auto found = std::find_if(response.node_demands.begin(), response.node_demands.end(), same);
     return found == response.node_demands.end() ? nullptr : &found->second;
   };
+  // What a hinge does to the modes of unit modal mass as it turns is what they do to its moment.
+  const auto by_hinge = [&](const StandingFrame::HeldResponse::Hinge& hinge, Eigen::Index mode) {
+    const auto* by_mode = demands_of(hinge.joint);
+    return by_mode ? (*by_mode)(hinge.axis, mode) : 0.0;
+  };
+  const auto reached = [&](Eigen::Index mode) {
+    constexpr double none = 1e-9;
+    for (Eigen::Index i = 0; i < local.size(); ++i)
+      if (std::pow(response.pushed(mode, i), 2) > none * local(i)) return true;
+    return std::any_of(response.hinges.begin(), response.hinges.end(), [&](const auto& hinge) {
+      return std::pow(by_hinge(hinge, mode), 2) > none * hinge.stiffness * response.squared(mode);
+    });
+  };
+  const auto hinges = static_cast<Eigen::Index>(response.hinges.size());
+  side.hinge_demands.assign(side.flexibility.demands.size(), Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, hinges));
+  const auto hinges_move = [&](Eigen::Index mode, double squared) {
+    for (std::size_t k = 0; hinges > 0 && k < side.hinge_demands.size(); ++k)
+      if (const auto* by_mode = demands_of(side.flexibility.demands[k].first))
+        for (Eigen::Index h = 0; h < hinges; ++h)
+          side.hinge_demands[k].col(h) +=
+              by_mode->col(mode) * (by_hinge(response.hinges[static_cast<std::size_t>(h)], mode) / squared);
+  };
+  for (std::size_t k = 0; k < side.hinge_demands.size(); ++k)
+    for (Eigen::Index h = 0; h < hinges; ++h)
+      for (const auto& [joint, demand] : response.hinges[static_cast<std::size_t>(h)].demands)
+        if (joint == side.flexibility.demands[k].first) side.hinge_demands[k].col(h) = demand;
   side.modes.clear();
   std::vector<double> give;
   for (Eigen::Index mode = 0; mode < response.squared.size(); ++mode) {
@@ -36,12 +56,14 @@ void BodyImpact::follow() {
     if (squared <= fast * fast) {
       side.modes.push_back(static_cast<int>(mode));
       give.push_back(1 / std::max(squared, slow * slow));
+      hinges_move(mode, std::max(squared, slow * slow));
       continue;
     }
     const Eigen::RowVectorXd moved = response.pushed.row(mode) / squared;
     compliance += response.pushed.row(mode).transpose() * moved;
     for (auto& [joint, columns] : side.flexibility.demands)
       if (const auto* by_mode = demands_of(joint)) columns += by_mode->col(mode) * moved;
+    hinges_move(mode, squared);
   }
   side.mode_compliance = Eigen::Map<const Eigen::VectorXd>(give.data(), static_cast<Eigen::Index>(give.size()));
   side.mode_demands.clear();

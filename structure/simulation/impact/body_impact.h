@@ -28,6 +28,9 @@ struct ImpactSide {
   Eigen::VectorXd mode_compliance;  ///< theirs
   /// In the order of `flexibility.demands`: by a unit of each of those modes' forces.
   std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> mode_demands;
+  /// In the order of `flexibility.demands`: for 1 rad that each of `response.hinges` turns more, under the same forces
+  /// at the places and in the modes.
+  std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> hinge_demands;
 };
 
 /// An impact under way. Side 0 is the body of the contact, side 1 what it comes upon.

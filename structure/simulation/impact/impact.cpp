@@ -118,6 +118,7 @@ Impact::Impact(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, Eigen::Vect
       peak_(depth_),
       state_(static_cast<std::size_t>(speed_.size()), Touch::touching),
       bound_(bound) {
+  elastic_ = compliance_.diagonal();
   check();
 }
 
@@ -143,10 +144,15 @@ bool Impact::goes_on() const { return any(Touch::touching) || any(Touch::behind)
 
 void Impact::change(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, const Eigen::VectorXd& shift) {
   mobility_ = std::move(mobility);
+  elastic_ = compliance.diagonal();
+  yield(std::move(compliance), shift);
+}
+
+void Impact::yield(Eigen::MatrixXd compliance, const Eigen::VectorXd& shift) {
   compliance_ = std::move(compliance);
   unloaded_ += shift;
   check();
-  for (Eigen::Index i = 0; i < depth_.size(); ++i) {
+  for (Eigen::Index i = 0; i < places(); ++i) {
     Touch& state = state_[static_cast<std::size_t>(i)];
     if (state == Touch::touching && depth_(i) < unloaded_(i)) state = Touch::behind;
   }
@@ -156,6 +162,7 @@ void Impact::bind(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, const Ei
                   const Eigen::VectorXd& rates) {
   mobility_ = std::move(mobility);
   compliance_ = std::move(compliance);
+  elastic_ = compliance_.diagonal();
   bound_ = coordinates.size();
   const Eigen::Index n = depth_.size();
   for (Eigen::VectorXd* each : {&acceleration_, &unloaded_, &impulse_, &peak_, &depth_, &speed_}) {
@@ -172,6 +179,7 @@ void Impact::keep(const std::vector<int>& places) {
   bound_ = 0;
   mobility_ = Eigen::MatrixXd(mobility_(places, places));
   compliance_ = Eigen::MatrixXd(compliance_(places, places));
+  elastic_ = Eigen::VectorXd(elastic_(places));
   for (Eigen::VectorXd* each : {&depth_, &speed_, &acceleration_, &unloaded_, &impulse_, &peak_})
     *each = Eigen::VectorXd((*each)(places));
   std::vector<Touch> state;
@@ -208,7 +216,7 @@ double Impact::longest_swing(const Modes& m) const {
   double own = 0;
   for (Eigen::Index i = 0; i < places(); ++i)
     if (state_[static_cast<std::size_t>(i)] != Touch::gone)
-      own = std::max(own, 2 * pi * std::sqrt(compliance_(i, i) / mobility_(i, i)));
+      own = std::max(own, 2 * pi * std::sqrt(elastic_(i) / mobility_(i, i)));
   return std::min(whole, most_periods * own);
 }
 
@@ -223,6 +231,14 @@ Eigen::VectorXd Impact::force() const {
   if (bound_ == 0 && !any(Touch::touching)) return all;
   const Modes m = modes();
   all(m.touching) = m.force(0);
+  return all;
+}
+
+Eigen::VectorXd Impact::force_rate() const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(depth_.size());
+  if (bound_ == 0 && !any(Touch::touching)) return all;
+  const Modes m = modes();
+  all(m.touching) = m.force(0, -1);
   return all;
 }
 
@@ -308,7 +324,7 @@ void Impact::part(const Modes& m, double at, Eigen::Index touching) {
 }
 
 /// Until a place lets go or is met (`changed`), something fails, or a full swing of the slowest mode has been seen.
-Impact::Stop Impact::swing(const Utilisation& utilisation, double deepest, bool& changed) {
+Impact::Stop Impact::swing(const Watch& watch, bool by_rates, double deepest, bool& changed) {
   const Modes m = modes();
   // Places come first among what touches.
   const auto touching = static_cast<Eigen::Index>(m.touching.size()) - bound_;
@@ -317,7 +333,10 @@ Impact::Stop Impact::swing(const Utilisation& utilisation, double deepest, bool&
     Eigen::VectorXd all = Eigen::VectorXd::Zero(depth_.size());
     all(m.touching) = m.force(t);
     all.head(places()) = all.head(places()).cwiseMax(0.0);
-    return utilisation(all);
+    if (!by_rates) return watch(all, all);
+    Eigen::VectorXd rate = Eigen::VectorXd::Zero(depth_.size());
+    rate(m.touching) = m.force(t, -1);
+    return watch(all, rate);
   };
   const auto depth = [&](double t) {
     return touching > 0 ? (m.root * (m.shape * m.coordinates(t, 0))).head(touching).maxCoeff() : 0.0;
@@ -325,7 +344,7 @@ Impact::Stop Impact::swing(const Utilisation& utilisation, double deepest, bool&
   const double step = 2 * pi / m.fastest() / samples_per_period, end = longest_swing(m);
   changed = false;
   double at = 0;
-  if (utilisation && used(0) >= 1) return Stop::failed;
+  if (watch && used(0) >= 1) return Stop::failed;
   Eigen::Index touched = -1;
   bool parted = false, failed = false, deep = depth(0) > deepest;
   while (at < end && !parted && !failed && !deep && touched < 0) {
@@ -337,7 +356,7 @@ Impact::Stop Impact::swing(const Utilisation& utilisation, double deepest, bool&
       (void)largest_overlap(m, to, &touched);
       parted = false;
     }
-    if (utilisation && used(to) >= 1) {
+    if (watch && used(to) >= 1) {
       failed = true;
       parted = false;
       touched = -1;
@@ -362,10 +381,19 @@ Impact::Stop Impact::swing(const Utilisation& utilisation, double deepest, bool&
 }
 
 Impact::Stop Impact::push(const Utilisation& utilisation, double deepest) {
+  Watch watch;
+  if (utilisation)
+    watch = [&](const Eigen::VectorXd& force, const Eigen::VectorXd& /*rate*/) { return utilisation(force); };
+  return push(watch, false, deepest);
+}
+
+Impact::Stop Impact::push_watched(const Watch& watch, double deepest) { return push(watch, true, deepest); }
+
+Impact::Stop Impact::push(const Watch& watch, bool by_rates, double deepest) {
   for (;;) {
     if (!any(Touch::touching) && (bound_ == 0 ? !fly_to_next_touch() : !any(Touch::behind))) return Stop::parted;
     bool changed = false;
-    const Stop stop = swing(utilisation, deepest, changed);
+    const Stop stop = swing(watch, by_rates, deepest, changed);
     if (stop == Stop::failed || stop == Stop::deep) return stop;
     if (!changed) return any(Touch::touching) ? stop : Stop::parted;
   }

@@ -45,6 +45,14 @@ class Impact {
   /// Goes on from where it is. Without `utilisation` nothing fails. `deepest`: m, of each place from where it touches.
   Stop push(const Utilisation& utilisation = {}, double deepest = std::numeric_limits<double>::infinity());
 
+  /// The same, of forces and of their rates, N/s: of places that touch, and of what is bound.
+  using Watch = std::function<double(const Eigen::VectorXd& force, const Eigen::VectorXd& rate)>;
+  Stop push_watched(const Watch& watch, double deepest = std::numeric_limits<double>::infinity());
+
+  /// Something behind the places begins to turn plastically, or holds again: compliance from now on, of all, and by how
+  /// much each unloaded place, and what is bound, has moved. How long the push lasts at most is told by how it gives
+  /// way elastically.
+  void yield(Eigen::MatrixXd compliance, const Eigen::VectorXd& shift);
   /// After a break: mobility and compliance from now on, and by how much each unloaded place has moved (positive away
   /// from what pushes it). Speeds stay. The same errors as the constructor's.
   void change(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, const Eigen::VectorXd& shift);
@@ -62,6 +70,7 @@ class Impact {
 
   // Of places and, behind them, of what is bound.
   [[nodiscard]] Eigen::VectorXd force() const;                               ///< now, N
+  [[nodiscard]] Eigen::VectorXd force_rate() const;                          ///< now, N/s; 0 of what does not touch
   [[nodiscard]] const Eigen::VectorXd& peak_force() const { return peak_; }  ///< so far, N; of what is bound either way
   [[nodiscard]] const Eigen::VectorXd& impulse() const { return impulse_; }  ///< of each place since taken last, N s
   /// Hands them out: from now on they are counted anew.
@@ -84,7 +93,8 @@ class Impact {
   void check() const;
   void advance(const Modes& modes, double time);
   bool fly_to_next_touch();
-  Stop swing(const Utilisation& utilisation, double deepest, bool& changed);
+  Stop swing(const Watch& watch, bool by_rates, double deepest, bool& changed);
+  Stop push(const Watch& watch, bool by_rates, double deepest);
   [[nodiscard]] double largest_overlap(const Modes& modes, double time, Eigen::Index* which) const;
   void part(const Modes& modes, double at, Eigen::Index touching);
   void note_peaks(const Modes& modes, double from, double to);
@@ -93,6 +103,7 @@ class Impact {
   [[nodiscard]] double longest_swing(const Modes& modes) const;
 
   Eigen::MatrixXd mobility_, compliance_;
+  Eigen::VectorXd elastic_;  ///< compliance of each by itself, without what yields
   Eigen::VectorXd depth_, speed_, acceleration_, unloaded_, impulse_, peak_;
   std::vector<Touch> state_;
   Eigen::Index bound_ = 0;

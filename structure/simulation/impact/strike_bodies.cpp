@@ -18,6 +18,9 @@ namespace topple::structure {
 
 namespace {
 
+/// A joint that bears so much less than it can, relative to that, has not come to it by rounding.
+constexpr double rounding = 1e-9;
+
 /// How far the unloaded places lie behind after a break. What is left stiffer holds the force that it had: the rest of
 /// the way belonged to what came off. What is left softer is pressed as far as it was.
 Eigen::VectorXd shift_of_break(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
@@ -96,7 +99,7 @@ void BodyImpacts::strike_all(const std::vector<collision::Contact>& contacts) {
   }
 }
 
-std::vector<StruckJoint> BodyImpacts::struck_joints(const BodyImpact& impact) const {
+std::vector<StruckJoint> BodyImpacts::struck_joints(const BodyImpact& impact, const YieldingJoints& yielding) const {
   std::vector<StruckJoint> joints;
   const Eigen::Index n = impact.compliance.rows(), m = impact.sides[1].mode_compliance.size();
   for (const ImpactSide& side : impact.sides)
@@ -108,6 +111,16 @@ std::vector<StruckJoint> BodyImpacts::struck_joints(const BodyImpact& impact) co
       joints.push_back({joint, &scene_.building[joint].capacity,
                         scene_.strength_factors[static_cast<std::size_t>(joint.index)], side.borne[k].second,
                         std::move(by_force)});
+      if (!side.held || !yielding.any()) continue;
+      // What turns holds its capacity, and changes what others bear.
+      StruckJoint& struck = joints.back();
+      if (yielding.has(joint)) struck.capacity = &scene_.frame->brittle_capacity(joint);
+      if (!(utilisation(*struck.capacity, struck.demand, struck.strength).value < 1)) {
+        joints.pop_back();  // over capacity without the impact
+        continue;
+      }
+      struck.with_hinges = yielding.turning();
+      yielding.add_to(k, struck);
     }
   return joints;
 }
@@ -146,41 +159,127 @@ void BodyImpacts::push(BodyImpact& impact) {
   impact.keep(independent_places(impact.compliance));
   if (begin_push(impact, false).fastest_over_slowest() > impact_settings.most_unlike) impact.keep({0});
   std::optional<Impact> push = begin_push(impact, true);
+  YieldingPush yielding(impact, sums_.ledger.lost_in_impacts);
   const double speed_in = push->closing_speed()(0);
   std::optional<std::size_t> told;  // which event tells of it: on what moves always, else once something broke
   if (impact.sides[1].held) told = record(impact, speed_in);
   bool goes_on = true;
   for (;;) {
     const double deepest = deepest_push(impact);
-    const std::vector<StruckJoint> all = struck_joints(impact);
+    const std::vector<StruckJoint> all = struck_joints(impact, yielding.joints);
     Impact borne = *push;
     std::vector<double> uses(all.size(), 0);
-    (void)borne.push(impact.sides[1].held ? note_uses(all, uses) : Impact::Utilisation(), deepest);
+    double moment = 0;
+    (void)borne.push(impact.sides[1].held ? note_uses(all, yielding.joints, uses, moment) : Impact::Utilisation(),
+                     deepest);
     const Eigen::Index n = impact.compliance.rows();
     const StruckJoints joints(all, borne.peak_force(), static_cast<int>(impact.sides[1].mode_compliance.size()));
     const double hardest = borne.peak_force().head(n).maxCoeff();
     const auto used = [&](const Eigen::VectorXd& force) { return joints.utilisation(force); };
-    if (told) log_[*told].peak_force = std::max(log_[*told].peak_force, joints.empty() ? hardest : 0);
-    if (joints.empty() || push->push(used, deepest) != Impact::Stop::failed) {
+    const bool yields = yielding.joints.turning() || moment >= 1;
+    const bool bears_all = joints.empty() && !yields;
+    if (told) log_[*told].peak_force = std::max(log_[*told].peak_force, bears_all ? hardest : 0);
+    if (bears_all ||
+        (yields ? yielding.push(*push, used, deepest) : push->push(used, deepest)) != Impact::Stop::failed) {
       for (std::size_t k = 0; k < all.size(); ++k)
         if (uses[k] > 0) scene_.frame->remember_utilisation(all[k].joint, std::min(uses[k], 1.0));
       break;
     }
     if (later(impact, push->impulse().head(n))) break;
+    std::vector<JointBreak> broken;
+    if (yields && !(joints.utilisation(push->force()) >= 1 - rounding)) {
+      broken = yielding.next(*push);
+      if (yielding.joints.worn_out()) break;
+      if (broken.empty()) continue;
+    } else {
+      broken = joints.failing(push->force());
+    }
     if (!told) told = record(impact, speed_in);
-    const std::vector<JointBreak> broken = joints.failing(push->force());
     SimulationEvent& event = log_[*told];
     event.peak_force = std::max(event.peak_force, push->peak_force().head(n).maxCoeff());
     give_impulses(impact, push->take_impulse().head(n));
-    goes_on = break_joints(impact, *push, broken);
+    book_turns_of(broken, yielding);
+    goes_on = break_joints(impact, *push, yielding, broken);
     log_[*told].speed_out = push->closing_speed()(0);
     if (!goes_on) break;
   }
-  if (!impact.sides[1].held || !goes_on) return;
-  leave_with_restitution(impact);
-  SimulationEvent& event = log_[*told];
-  event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
-  event.speed_out = impact.closing()(0);
+  if (impact.sides[1].held && goes_on) {
+    leave_with_restitution(impact, yielding);
+    SimulationEvent& event = log_[*told];
+    event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
+    event.speed_out = impact.closing()(0);
+  }
+  leave_turned(yielding);
+}
+
+/// Until an event, with what yields turned as far as it then has.
+Impact::Stop BodyImpacts::YieldingPush::push(Impact& push, const Impact::Utilisation& brittle, double deepest) {
+  const Impact::Stop stop =
+      push.push_watched([&](const Eigen::VectorXd& force,
+                            const Eigen::VectorXd& rate) { return std::max(brittle(force), joints.use(force, rate)); },
+                        deepest);
+  joints.turn(push.force());
+  return stop;
+}
+
+BodyImpacts::YieldingPush::YieldingPush(const BodyImpact& impact, double lost) : lost_before(lost) {
+  joints.take_up(impact);
+  if (joints.any()) laid = joints.unloaded();
+}
+
+void BodyImpacts::YieldingPush::keep(const std::vector<int>& places) {
+  if (joints.any()) laid = Eigen::VectorXd(laid(places));
+}
+
+/// After a break, with places that lie as far on as `laid` says, and modes that do not.
+void BodyImpacts::YieldingPush::take_up(const BodyImpact& impact, Impact& push) {
+  joints.take_up(impact);
+  if (!joints.any()) return;
+  const Eigen::VectorXd places = laid;
+  laid = Eigen::VectorXd::Zero(joints.unloaded().size());
+  laid.head(places.size()) = places;
+  lay(push);
+}
+
+/// A hinge begins to turn, or turns no more, and the push goes on with what gives way then; or these joints have turned
+/// too far.
+std::vector<JointBreak> BodyImpacts::YieldingPush::next(Impact& push) {
+  std::vector<JointBreak> broken = joints.next(push.force(), push.force_rate());
+  if (broken.empty()) lay(push);
+  return broken;
+}
+
+void BodyImpacts::YieldingPush::lay(Impact& push) {
+  const Eigen::VectorXd now = joints.unloaded();
+  push.yield(joints.compliance(), now - laid);
+  laid = now;
+}
+
+/// What hinges of joints that are about to break took.
+void BodyImpacts::book_turns_of(const std::vector<JointBreak>& broken, const YieldingPush& yielding) {
+  std::vector<StandingFrame::ImpactTurn> turns;
+  for (StandingFrame::ImpactTurn turn : yielding.joints.turns()) {
+    turn.turned = 0;
+    if (std::any_of(broken.begin(), broken.end(), [&](const JointBreak& one) { return one.joint == turn.joint; }))
+      turns.push_back(turn);
+  }
+  book_turns(turns, yielding);
+}
+
+/// The impact is over: rotations stay, and what they took was lost in the impact. No more than that: what the struck
+/// nodes took up is theirs, and turns hinges as they move.
+void BodyImpacts::leave_turned(const YieldingPush& yielding) { book_turns(yielding.joints.left(), yielding); }
+
+void BodyImpacts::book_turns(std::vector<StandingFrame::ImpactTurn> turns, const YieldingPush& yielding) {
+  if (turns.empty()) return;
+  const double work = yielding.joints.work(turns),
+               lost = std::max(0.0, sums_.ledger.lost_in_impacts - yielding.lost_before);
+  if (work > lost)
+    for (StandingFrame::ImpactTurn& turn : turns) {
+      turn.turned *= lost / work;
+      turn.dissipated *= lost / work;
+    }
+  sums_.ledger.lost_in_impacts -= scene_.frame->turn_in_impact(turns);
 }
 
 /// Whether what moves makes way before these impulses have acted: all at once they would drive the sides apart. In the
@@ -190,13 +289,16 @@ bool BodyImpacts::later(const BodyImpact& impact, const Eigen::VectorXd& impulse
   return impact.sides[1].held && impulses.dot(impact.mobility_of_both() * impulses) > impulses.dot(impact.closing());
 }
 
-/// Fails nothing, and keeps the largest utilisation of each joint of what stands.
-Impact::Utilisation BodyImpacts::note_uses(const std::vector<StruckJoint>& joints, std::vector<double>& uses) const {
+/// Fails nothing, and keeps the largest utilisation of each joint of what stands, and the largest moment of its hinges.
+Impact::Utilisation BodyImpacts::note_uses(const std::vector<StruckJoint>& joints, const YieldingJoints& hinges,
+                                           std::vector<double>& uses, double& moment) const {
   return [&](const Eigen::VectorXd& force) {
+    if (hinges.any()) moment = std::max(moment, hinges.largest_moment(force));
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const StruckJoint& one = joints[k];
       if (debris_.body_of(one.joint) >= 0) continue;
-      uses[k] = std::max(uses[k], utilisation(*one.capacity, one.demand + one.step * force, one.strength).value);
+      const JointCapacity& capacity = scene_.building[one.joint].capacity;
+      uses[k] = std::max(uses[k], utilisation(capacity, one.demand + one.step * force, one.strength).value);
     }
     return 0.0;
   };
@@ -223,11 +325,18 @@ double BodyImpacts::deepest_push(const BodyImpact& impact) const {
 
 /// Nothing more fails: the impulses after which no place closes, and each that was pushed parts with the scenario's
 /// share of its closing speed (Newton's law of impact for several contacts; Gauss-Seidel over the places).
-void BodyImpacts::leave_with_restitution(BodyImpact& impact) {
+/// What hinges took does not come back.
+void BodyImpacts::leave_with_restitution(BodyImpact& impact, const YieldingPush& yielding) {
   constexpr int most_passes = 1000;
   constexpr double settled = 1e-12;
   const Eigen::MatrixXd mobility = impact.mobility_of_both();
-  const Eigen::VectorXd wanted = (1 + scene_.scenario.impact.restitution) * impact.closing();
+  double restitution = scene_.scenario.impact.restitution;
+  if (const double took = yielding.joints.work(yielding.joints.left()); took > 0) {
+    const Eigen::VectorXd closing = impact.closing().cwiseMax(0.0);
+    const double brought = closing.dot(mobility.completeOrthogonalDecomposition().solve(closing)) / 2;
+    restitution *= std::sqrt(std::max(0.0, 1 - took / brought));
+  }
+  const Eigen::VectorXd wanted = (1 + restitution) * impact.closing();
   Eigen::VectorXd impulses = Eigen::VectorXd::Zero(wanted.size());
   for (int pass = 0; pass < most_passes; ++pass) {
     double changed = 0;
@@ -354,7 +463,12 @@ bool BodyImpacts::fall_apart(BodyImpact& impact, const std::vector<JointBreak>& 
 }
 
 /// These joints fail; bodies fall apart, and the push goes on with the pieces that touch. False: it is over.
-bool BodyImpacts::break_joints(BodyImpact& impact, Impact& push, const std::vector<JointBreak>& broken) {
+bool BodyImpacts::break_joints(BodyImpact& impact, Impact& push, YieldingPush& yielding,
+                               const std::vector<JointBreak>& broken) {
+  if (yielding.joints.any()) {
+    yielding.joints.hold();
+    yielding.lay(push);
+  }
   const double stored = push.stored();
   const Eigen::MatrixXd compliance = impact.compliance;
   const Eigen::VectorXd force = push.force().head(compliance.rows());
@@ -377,12 +491,14 @@ bool BodyImpacts::break_joints(BodyImpact& impact, Impact& push, const std::vect
   if (goes_on) {
     impact.keep(kept);
     push.keep(kept);
+    yielding.keep(kept);
     goes_on = take_up(impact);
   }
   if (goes_on) {
     const std::vector<int> apart = independent_places(impact.compliance);
     impact.keep(apart);
     push.keep(apart);
+    yielding.keep(apart);
     Eigen::MatrixXd before = compliance(kept, kept);
     Eigen::VectorXd pressed = force(kept);
     before = Eigen::MatrixXd(before(apart, apart));
@@ -394,6 +510,7 @@ bool BodyImpacts::break_joints(BodyImpact& impact, Impact& push, const std::vect
       push.bind(impact.followed_mobility(), impact.followed_compliance(),
                 carried_over(before_break, moved, impact.sides[1]),
                 carried_over(before_break, moving, impact.sides[1]));
+    yielding.take_up(impact, push);
     left = push.stored();
   }
   for (const std::size_t line : lines)

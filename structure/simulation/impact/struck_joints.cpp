@@ -20,7 +20,7 @@ StruckJoints::StruckJoints(std::vector<StruckJoint> all, const Eigen::VectorXd& 
   for (StruckJoint& one : all) {
     if (!one.capacity->breakable) continue;
     const double before = structure::utilisation(*one.capacity, one.demand, one.strength).value;
-    if (!(before < 1)) continue;
+    if (!(before < 1) && !one.with_hinges) continue;
     Eigen::VectorXd slope(most.size());
     for (Eigen::Index place = 0; place < most.size(); ++place) {
       slope(place) = structure::utilisation(*one.capacity, Vec6(one.step.col(place)), one.strength).value;

@@ -15,6 +15,8 @@ struct StruckJoint {
   double strength = 1;                            ///< factor on the capacity
   Vec6 demand = Vec6::Zero();                     ///< without the impact
   Eigen::Matrix<double, 6, Eigen::Dynamic> step;  ///< for each newton at each place
+  /// Hinges turn: its demand is none that it ever bears without the impact, and may be over its capacity.
+  bool with_hinges = false;
 };
 
 class StruckJoints {

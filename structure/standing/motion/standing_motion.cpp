@@ -295,6 +295,16 @@ double StandingMotion::strike(int c, const NodalForces& impulses) {
   return frame.energy().struck - before;
 }
 
+double StandingMotion::turn_at_once(int c, std::size_t number, double turn, double dissipated) {
+  const Moving& moving = *moving_.at(c);
+  const PlasticHinge& hinge = from_.yielding.hinges(c)[number];
+  const Joint& own = from_.building[hinge.joint];
+  const double before = moving.frame->energy().struck;
+  moving.frame->turn_at_once(from_.statics.number(own.member), own.end, hinge.axis, turn, dissipated);
+  store_plastic_rotations(c, moving);
+  return moving.frame->energy().struck - before;
+}
+
 double StandingMotion::largest_turn(int c) const {
   const std::vector<Vec6>& u = moving_.at(c)->frame->displacements();
   double largest = 0;

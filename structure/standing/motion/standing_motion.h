@@ -91,6 +91,8 @@ class StandingMotion {
   [[nodiscard]] LocalMotion local_motion(int component, std::span<const NodalForces> forces) const;
   /// Returns the work of the impulses, J. What changed before is taken over first.
   double strike(int component, const NodalForces& impulses);
+  /// A hinge, by its place among the component's, turns at once: rad, J. Returns what the frame took, J.
+  double turn_at_once(int component, std::size_t hinge, double turn, double dissipated);
 
   /// Largest turn of a chord in the component, rad.
   [[nodiscard]] double largest_turn(int component) const;

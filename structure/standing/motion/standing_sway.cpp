@@ -3,8 +3,10 @@
 #include <cmath>
 #include <span>
 
+#include "standing/beam_as_it_holds.h"
 #include "standing/held_push.h"
 #include "standing/standing_state.h"
+#include "topple/solver/held_beam.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -148,6 +150,7 @@ StandingFrame::HeldResponse StandingFrame::respond_held(std::span<const ContactP
       for (const auto& [node, force] : answer.at_nodes[static_cast<std::size_t>(i)])
         answer.speed(i) += force.dot(state.motion->velocity(node));
     add_modes(c, state.motion->local_motion(c, forces), own, answer);
+    state.add_hinges(c, answer);
   }
   state.pending = true;
   return answer;
@@ -169,6 +172,30 @@ double StandingFrame::strike(const HeldResponse& pushed, const Eigen::VectorXd& 
 
 void StandingFrame::remember_utilisation(JointId joint, double value) { state_->joints.remember(joint, value); }
 
+const JointCapacity& StandingFrame::brittle_capacity(JointId joint) const {
+  return state_->joints.brittle_capacity(joint);
+}
+
+double StandingFrame::turn_in_impact(std::span<const ImpactTurn> turns) {
+  State& state = *state_;
+  double work = 0;
+  for (const ImpactTurn& one : turns) {
+    const MemberId member = state.building[one.joint].member;
+    const int c = state.statics.component(member);
+    if (!state.parts.standing(one.joint) || !state.motion->moves(c)) continue;
+    (void)state.account.change(member);  // its next state of rest is another one
+    const std::vector<PlasticHinge>& hinges = state.yielding.hinges(c);
+    for (std::size_t h = 0; h < hinges.size(); ++h)
+      if (hinges[h].joint == one.joint && hinges[h].axis == one.axis)
+        work += state.motion->turn_at_once(c, h, one.turned, one.dissipated);
+    const solver::Vec12 end_forces = state.motion->end_forces(member);
+    for (int end = 0; end < 2; ++end)
+      if (const JointId joint = state.building.joint(member, end); state.parts.standing(joint))
+        state.joints.set_demand(joint, member_joint_demand(end_forces, end));
+  }
+  return work;
+}
+
 void StandingFrame::break_in_impact(std::span<const JointBreak> breaks) {
   State& state = *state_;
   for (const JointBreak& one : breaks) {
@@ -180,6 +207,44 @@ void StandingFrame::break_in_impact(std::span<const JointBreak> breaks) {
   // The push goes on against what is left.
   for (const int c : state.motion->moving()) (void)state.motion->strike(c, {});
   state.pending = true;
+}
+
+/// Hinges of joints of one component that the push reaches. A joint that alone holds its member has none: between held
+/// nodes nothing but mass, which is at the nodes, would say how it turns.
+void StandingFrame::State::add_hinges(int component, HeldResponse& answer) {
+  constexpr double no_hold = 1e-9;  // of the stiffness of a bar
+  std::vector<JointId> alone;
+  const auto reached = [&](JointId joint) {
+    const auto same = [joint](const auto& one) { return one.first == joint; };
+    return std::any_of(answer.demands.begin(), answer.demands.end(), same) ||
+           std::any_of(answer.node_demands.begin(), answer.node_demands.end(), same);
+  };
+  for (const PlasticHinge& hinge : yielding.hinges(component)) {
+    if (!parts.standing(hinge.joint) || !reached(hinge.joint)) continue;
+    const Joint& own = building[hinge.joint];
+    solver::BeamLoad angle;  // a kink at its end
+    angle.kind = solver::BeamLoad::Kind::temperature;
+    (own.end == 0 ? angle.first : angle.last)(hinge.axis) = 1;
+    const solver::Beam beam = beam_as_it_holds(statics, parts, own.member);
+    const solver::Vec12 held = solver::hold_beam(beam, {&angle, 1}).end_forces;
+    const double stiffness = -held(6 * own.end + hinge.axis);
+    if (!(stiffness > no_hold * beam.youngs_modulus * (beam.Iy + beam.Iz) / beam.length)) {
+      alone.push_back(hinge.joint);
+      continue;
+    }
+    HeldResponse::Hinge& found = answer.hinges.emplace_back();
+    found.joint = hinge.joint;
+    found.axis = hinge.axis;
+    found.capacity = yielding.capacity(hinge);
+    found.limit = hinge.limit;
+    found.plastic_rotation = hinge.plastic_rotation;
+    found.stiffness = stiffness;
+    for (int end = 0; end < 2; ++end)
+      found.demands.emplace_back(building.joint(own.member, end), member_joint_demand(held, end));
+  }
+  std::erase_if(answer.hinges, [&](const HeldResponse::Hinge& hinge) {
+    return std::find(alone.begin(), alone.end(), hinge.joint) != alone.end();
+  });
 }
 
 std::map<int, std::vector<Eigen::Index>> StandingFrame::State::places_by_component(const HeldResponse& pushed) const {

@@ -51,7 +51,7 @@ struct DynamicEnergy {
   double damped = 0;         ///< by C
   double numerical = 0;      ///< by the method itself; nothing at a spectral radius of 1
   double dissipated = 0;     ///< in plastic hinges: what they hold times how far they turned
-  double struck = 0;         ///< work of impulses
+  double struck = 0;         ///< work of impulses, and of what turned hinges at once
   double external_work = 0;  ///< of loads
   double freed = 0;          ///< by breaks and other changes of the structure: what left it, and what a member
                              ///< that swings from one end alone lost
@@ -175,6 +175,10 @@ class FrameDynamics {
   /// How far a beam's end has turned for good (rad, local axes, of the node against the beam's own end), as part of the
   /// state: 0 unless set here or turned by advance(). `component`: 3 torsion, 4 and 5 bending.
   void set_plastic_rotation(int beam, int end, int component, double rotation);
+  /// A beam's end turns further for good at once, as something fast makes it (rad, signs and components as there).
+  /// `dissipated`: what its hinge took, J. That and the change of the elastic energy, less what loads on the beam did,
+  /// count as `struck`.
+  void turn_at_once(int beam, int end, int component, double turn, double dissipated);
   /// Replaces the load on a node: N and N m, global axes.
   void set_node_load(int node, const Vec6& load);
   /// Replaces the loads on a beam, local axes.

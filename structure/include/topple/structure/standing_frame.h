@@ -282,6 +282,17 @@ class StandingFrame {
     Eigen::MatrixXd pushed;   ///< by a unit force at each place, kg^-1/2
     /// Of joints at those nodes, for a unit of each coordinate.
     std::vector<std::pair<JointId, Eigen::Matrix<double, 6, Eigen::Dynamic>>> node_demands;
+    /// A sense of one of those joints that holds its capacity while it turns, and then breaks.
+    struct Hinge {
+      JointId joint;
+      int axis = 4;                 ///< component of the demand: 3 torsion, 4 and 5 moments
+      double capacity = 0;          ///< N m, of either sign, as strong as the joint is now
+      double limit = 0;             ///< rad, of its plastic rotation of either sign
+      double plastic_rotation = 0;  ///< rad, now
+      double stiffness = 0;         ///< N m/rad: by how much its moment falls for 1 rad more, nodes held
+      std::vector<std::pair<JointId, Vec6>> demands;  ///< of both joints of its member for that
+    };
+    std::vector<Hinge> hinges;
   };
   /// A component at rest begins to move.
   [[nodiscard]] HeldResponse respond_held(std::span<const ContactPlace> places, std::span<const Vec3> directions);
@@ -289,6 +300,18 @@ class StandingFrame {
   double strike(const HeldResponse& pushed, const Eigen::VectorXd& impulses);
   /// What a joint bore in an impact that it survived, for largest_utilisation_so_far().
   void remember_utilisation(JointId joint, double value);
+  /// By how much a joint's hinge turned in an impact, of the sign of the moment that it held, and what it took.
+  struct ImpactTurn {
+    JointId joint;
+    int axis = 4;           ///< as HeldResponse::Hinge has it
+    double turned = 0;      ///< rad
+    double dissipated = 0;  ///< J
+  };
+  /// Joints of what moves have turned by so much, for good, with their nodes where they are. Those that stand no more
+  /// are passed over. Returns what the frame took, J: dissipated, and more elastic energy.
+  double turn_in_impact(std::span<const ImpactTurn> turns);
+  /// The capacity of a joint in the senses that break at once.
+  [[nodiscard]] const JointCapacity& brittle_capacity(JointId joint) const;
   /// Joints of what moves break now, at an impact. What snaps with them is told by the next move().
   void break_in_impact(std::span<const JointBreak> breaks);
 
