@@ -7,6 +7,58 @@
 
 namespace topple::structure {
 
+namespace {
+
+using Demands = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// What a joint bears by unit amplitudes of the modes of the struck nodes; null: it does not go with them.
+const Demands* demands_by_mode(const StandingFrame::HeldResponse& response, JointId joint) {
+  const auto found = std::find_if(response.node_demands.begin(), response.node_demands.end(),
+                                  [joint](const auto& one) { return one.first == joint; });
+  return found == response.node_demands.end() ? nullptr : &found->second;
+}
+
+/// What a hinge does to the modes of unit modal mass as it turns: the same as they do to its moment.
+double by_hinge(const StandingFrame::HeldResponse& response, const StandingFrame::HeldResponse::Hinge& hinge,
+                Eigen::Index mode) {
+  const Demands* by_mode = demands_by_mode(response, hinge.joint);
+  return by_mode ? (*by_mode)(hinge.axis, mode) : 0.0;
+}
+
+/// Whether the push or a hinge that turns moves it.
+bool is_reached(const StandingFrame::HeldResponse& response, const Eigen::VectorXd& local, Eigen::Index mode) {
+  constexpr double none = 1e-9;
+  for (Eigen::Index i = 0; i < local.size(); ++i)
+    if (std::pow(response.pushed(mode, i), 2) > none * local(i)) return true;
+  return std::any_of(response.hinges.begin(), response.hinges.end(), [&](const auto& hinge) {
+    return std::pow(by_hinge(response, hinge, mode), 2) > none * hinge.stiffness * response.squared(mode);
+  });
+}
+
+/// What joints of the side bear by a unit of turning of each hinge, the struck nodes held.
+void begin_hinge_demands(ImpactSide& side) {
+  const auto& hinges = side.response.hinges;
+  side.hinge_demands.assign(side.flexibility.demands.size(),
+                            Demands::Zero(6, static_cast<Eigen::Index>(hinges.size())));
+  for (std::size_t k = 0; k < side.hinge_demands.size(); ++k)
+    for (std::size_t h = 0; h < hinges.size(); ++h)
+      for (const auto& [joint, demand] : hinges[h].demands)
+        if (joint == side.flexibility.demands[k].first)
+          side.hinge_demands[k].col(static_cast<Eigen::Index>(h)) = demand;
+}
+
+/// And what this mode adds to that: `squared` is its stiffness for a unit of mass.
+void add_hinge_demands(ImpactSide& side, Eigen::Index mode, double squared) {
+  const auto& hinges = side.response.hinges;
+  for (std::size_t k = 0; !hinges.empty() && k < side.hinge_demands.size(); ++k)
+    if (const Demands* by_mode = demands_by_mode(side.response, side.flexibility.demands[k].first))
+      for (std::size_t h = 0; h < hinges.size(); ++h)
+        side.hinge_demands[k].col(static_cast<Eigen::Index>(h)) +=
+            by_mode->col(mode) * (by_hinge(side.response, hinges[h], mode) / squared);
+}
+
+}  // namespace
+
 /// Which modes of the struck nodes the push moves. The faster ones bear it as at rest.
 void BodyImpact::follow() {
   ImpactSide& side = sides[1];
@@ -17,62 +69,31 @@ void BodyImpact::follow() {
   for (Eigen::Index i = 0; i < local.size(); ++i)
     own = std::max(own, std::sqrt((body(i, i) + local(i)) / compliance(i, i)));
   const double fast = impact_settings.follows * own, slow = own / (impact_settings.follows * impact_settings.follows);
-  const auto demands_of = [&](JointId joint) {
-    const auto same = [joint](const auto& one) { return one.first == joint; };
-    const auto found = std::find_if(response.node_demands.begin(), response.node_demands.end(), same);
-    return found == response.node_demands.end() ? nullptr : &found->second;
-  };
-  // What a hinge does to the modes of unit modal mass as it turns is what they do to its moment.
-  const auto by_hinge = [&](const StandingFrame::HeldResponse::Hinge& hinge, Eigen::Index mode) {
-    const auto* by_mode = demands_of(hinge.joint);
-    return by_mode ? (*by_mode)(hinge.axis, mode) : 0.0;
-  };
-  const auto reached = [&](Eigen::Index mode) {
-    constexpr double none = 1e-9;
-    for (Eigen::Index i = 0; i < local.size(); ++i)
-      if (std::pow(response.pushed(mode, i), 2) > none * local(i)) return true;
-    return std::any_of(response.hinges.begin(), response.hinges.end(), [&](const auto& hinge) {
-      return std::pow(by_hinge(hinge, mode), 2) > none * hinge.stiffness * response.squared(mode);
-    });
-  };
-  const auto hinges = static_cast<Eigen::Index>(response.hinges.size());
-  side.hinge_demands.assign(side.flexibility.demands.size(), Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, hinges));
-  const auto hinges_move = [&](Eigen::Index mode, double squared) {
-    for (std::size_t k = 0; hinges > 0 && k < side.hinge_demands.size(); ++k)
-      if (const auto* by_mode = demands_of(side.flexibility.demands[k].first))
-        for (Eigen::Index h = 0; h < hinges; ++h)
-          side.hinge_demands[k].col(h) +=
-              by_mode->col(mode) * (by_hinge(response.hinges[static_cast<std::size_t>(h)], mode) / squared);
-  };
-  for (std::size_t k = 0; k < side.hinge_demands.size(); ++k)
-    for (Eigen::Index h = 0; h < hinges; ++h)
-      for (const auto& [joint, demand] : response.hinges[static_cast<std::size_t>(h)].demands)
-        if (joint == side.flexibility.demands[k].first) side.hinge_demands[k].col(h) = demand;
+  begin_hinge_demands(side);
   side.modes.clear();
   std::vector<double> give;
   for (Eigen::Index mode = 0; mode < response.squared.size(); ++mode) {
-    if (!reached(mode)) continue;
+    if (!is_reached(response, local, mode)) continue;
     const double squared = response.squared(mode);
     if (squared <= fast * fast) {
       side.modes.push_back(static_cast<int>(mode));
       give.push_back(1 / std::max(squared, slow * slow));
-      hinges_move(mode, std::max(squared, slow * slow));
+      add_hinge_demands(side, mode, std::max(squared, slow * slow));
       continue;
     }
     const Eigen::RowVectorXd moved = response.pushed.row(mode) / squared;
     compliance += response.pushed.row(mode).transpose() * moved;
     for (auto& [joint, columns] : side.flexibility.demands)
-      if (const auto* by_mode = demands_of(joint)) columns += by_mode->col(mode) * moved;
-    hinges_move(mode, squared);
+      if (const Demands* by_mode = demands_by_mode(response, joint)) columns += by_mode->col(mode) * moved;
+    add_hinge_demands(side, mode, squared);
   }
   side.mode_compliance = Eigen::Map<const Eigen::VectorXd>(give.data(), static_cast<Eigen::Index>(give.size()));
   side.mode_demands.clear();
   for (const auto& [joint, columns] : side.flexibility.demands) {
-    const auto* by_mode = demands_of(joint);
-    side.mode_demands.emplace_back(
-        by_mode ? Eigen::Matrix<double, 6, Eigen::Dynamic>((*by_mode)(Eigen::all, side.modes) *
-                                                           side.mode_compliance.asDiagonal())
-                : Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, side.mode_compliance.size()));
+    const Demands* by_mode = demands_by_mode(response, joint);
+    side.mode_demands.emplace_back(by_mode
+                                       ? Demands((*by_mode)(Eigen::all, side.modes) * side.mode_compliance.asDiagonal())
+                                       : Demands::Zero(6, side.mode_compliance.size()));
   }
 }
 

@@ -13,7 +13,7 @@
 #include "simulation/impact/standing_impacts.h"
 #include "simulation/impact/struck_clock.h"
 #include "simulation/impact/struck_joints.h"
-#include "simulation/impact/yielding_joints.h"
+#include "simulation/impact/yielding_push.h"
 
 namespace topple::structure {
 
@@ -35,19 +35,6 @@ class BodyImpacts {
   void strike_all(const std::vector<collision::Contact>& contacts);
 
  private:
-  /// Ductile joints of one impact, as its push has them.
-  struct YieldingPush {
-    YieldingPush(const BodyImpact& impact, double lost);
-    YieldingJoints joints;
-    Eigen::VectorXd laid;    ///< by how much the push has its coordinates further on for them
-    double lost_before = 0;  ///< J, in impacts before this one
-
-    [[nodiscard]] Impact::Stop push(Impact& push, const Impact::Utilisation& brittle, double deepest);
-    [[nodiscard]] std::vector<JointBreak> next(Impact& push);
-    void lay(Impact& push);
-    void keep(const std::vector<int>& places);
-    void take_up(const BodyImpact& impact, Impact& push);
-  };
   [[nodiscard]] std::optional<collision::Contact> contact_now(const collision::Contact& swept) const;
   void strike(const std::vector<collision::Contact>& contacts);
   void push(BodyImpact& impact);
@@ -58,9 +45,9 @@ class BodyImpacts {
   void find_flexibility(ImpactSide& side, const std::vector<ImpactPlace>& places, double sign);
   void find_held(ImpactSide& side, const std::vector<ImpactPlace>& places);
   void leave_with_restitution(BodyImpact& impact, const YieldingPush& yielding);
-  void book_turns_of(const std::vector<JointBreak>& broken, const YieldingPush& yielding);
-  void leave_turned(const YieldingPush& yielding);
-  void book_turns(std::vector<StandingFrame::ImpactTurn> turns, const YieldingPush& yielding);
+  void account_turns_of(const std::vector<JointBreak>& broken, const YieldingPush& yielding);
+  void keep_turns(const YieldingPush& yielding);
+  void account_turns(std::vector<StandingFrame::ImpactTurn> turns, const YieldingPush& yielding);
   [[nodiscard]] bool take_up(BodyImpact& impact);
   [[nodiscard]] Impact begin_push(const BodyImpact& impact, bool follows) const;
   [[nodiscard]] Impact::Utilisation note_uses(const std::vector<StruckJoint>& joints, const YieldingJoints& hinges,

@@ -21,14 +21,6 @@ namespace {
 /// A joint that bears so much less than it can, relative to that, has not come to it by rounding.
 constexpr double rounding = 1e-9;
 
-/// How far the unloaded places lie behind after a break. What is left stiffer holds the force that it had: the rest of
-/// the way belonged to what came off. What is left softer is pressed as far as it was.
-Eigen::VectorXd shift_of_break(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
-                               const Eigen::VectorXd& force) {
-  const bool stiffer = force.dot(after * force) < force.dot(before * force);
-  return stiffer ? Eigen::VectorXd((before - after) * force) : Eigen::VectorXd(Eigen::VectorXd::Zero(force.size()));
-}
-
 /// Which places give way in ways of their own, in their order: of two that are one, the first.
 std::vector<int> independent_places(const Eigen::MatrixXd& compliance) {
   std::vector<int> kept;
@@ -198,7 +190,7 @@ void BodyImpacts::push(BodyImpact& impact) {
     SimulationEvent& event = log_[*told];
     event.peak_force = std::max(event.peak_force, push->peak_force().head(n).maxCoeff());
     give_impulses(impact, push->take_impulse().head(n));
-    book_turns_of(broken, yielding);
+    account_turns_of(broken, yielding);
     goes_on = break_joints(impact, *push, yielding, broken);
     log_[*told].speed_out = push->closing_speed()(0);
     if (!goes_on) break;
@@ -209,77 +201,7 @@ void BodyImpacts::push(BodyImpact& impact) {
     event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
     event.speed_out = impact.closing()(0);
   }
-  leave_turned(yielding);
-}
-
-/// Until an event, with what yields turned as far as it then has.
-Impact::Stop BodyImpacts::YieldingPush::push(Impact& push, const Impact::Utilisation& brittle, double deepest) {
-  const Impact::Stop stop =
-      push.push_watched([&](const Eigen::VectorXd& force,
-                            const Eigen::VectorXd& rate) { return std::max(brittle(force), joints.use(force, rate)); },
-                        deepest);
-  joints.turn(push.force());
-  return stop;
-}
-
-BodyImpacts::YieldingPush::YieldingPush(const BodyImpact& impact, double lost) : lost_before(lost) {
-  joints.take_up(impact);
-  if (joints.any()) laid = joints.unloaded();
-}
-
-void BodyImpacts::YieldingPush::keep(const std::vector<int>& places) {
-  if (joints.any()) laid = Eigen::VectorXd(laid(places));
-}
-
-/// After a break, with places that lie as far on as `laid` says, and modes that do not.
-void BodyImpacts::YieldingPush::take_up(const BodyImpact& impact, Impact& push) {
-  joints.take_up(impact);
-  if (!joints.any()) return;
-  const Eigen::VectorXd places = laid;
-  laid = Eigen::VectorXd::Zero(joints.unloaded().size());
-  laid.head(places.size()) = places;
-  lay(push);
-}
-
-/// A hinge begins to turn, or turns no more, and the push goes on with what gives way then; or these joints have turned
-/// too far.
-std::vector<JointBreak> BodyImpacts::YieldingPush::next(Impact& push) {
-  std::vector<JointBreak> broken = joints.next(push.force(), push.force_rate());
-  if (broken.empty()) lay(push);
-  return broken;
-}
-
-void BodyImpacts::YieldingPush::lay(Impact& push) {
-  const Eigen::VectorXd now = joints.unloaded();
-  push.yield(joints.compliance(), now - laid);
-  laid = now;
-}
-
-/// What hinges of joints that are about to break took.
-void BodyImpacts::book_turns_of(const std::vector<JointBreak>& broken, const YieldingPush& yielding) {
-  std::vector<StandingFrame::ImpactTurn> turns;
-  for (StandingFrame::ImpactTurn turn : yielding.joints.turns()) {
-    turn.turned = 0;
-    if (std::any_of(broken.begin(), broken.end(), [&](const JointBreak& one) { return one.joint == turn.joint; }))
-      turns.push_back(turn);
-  }
-  book_turns(turns, yielding);
-}
-
-/// The impact is over: rotations stay, and what they took was lost in the impact. No more than that: what the struck
-/// nodes took up is theirs, and turns hinges as they move.
-void BodyImpacts::leave_turned(const YieldingPush& yielding) { book_turns(yielding.joints.left(), yielding); }
-
-void BodyImpacts::book_turns(std::vector<StandingFrame::ImpactTurn> turns, const YieldingPush& yielding) {
-  if (turns.empty()) return;
-  const double work = yielding.joints.work(turns),
-               lost = std::max(0.0, sums_.ledger.lost_in_impacts - yielding.lost_before);
-  if (work > lost)
-    for (StandingFrame::ImpactTurn& turn : turns) {
-      turn.turned *= lost / work;
-      turn.dissipated *= lost / work;
-    }
-  sums_.ledger.lost_in_impacts -= scene_.frame->turn_in_impact(turns);
+  keep_turns(yielding);
 }
 
 /// Whether what moves makes way before these impulses have acted: all at once they would drive the sides apart. In the
@@ -419,103 +341,6 @@ void BodyImpacts::give_impulses(BodyImpact& impact, const Eigen::VectorXd& impul
   }
   sums_.ledger.lost_in_impacts += kinetic - measure(after) - given;
   sums_.ledger.momentum_error = std::max(sums_.ledger.momentum_error, after.error(before));
-}
-
-/// Joints of the frame break there as well. Returns the lines of the events.
-std::vector<std::size_t> BodyImpacts::record_breaks(const std::vector<JointBreak>& broken) {
-  std::vector<std::size_t> lines;
-  std::vector<JointBreak> of_frame;
-  for (const JointBreak& one : broken) {
-    JointBreak line = one;
-    const collision::BodyId id{debris_.body_of(one.joint)};
-    if (id.value < 0) {
-      line.position = scene_.joint_position(one.joint);
-      of_frame.push_back(one);
-      lines.push_back(log_.size());
-      log_.record(line);
-      continue;
-    }
-    break_up_.lose(one.joint);
-    const collision::BodyState state = scene_.world->state(id);
-    line.position = state.pose * (scene_.joint_position(one.joint) - debris_.bodies.at(id.value).rest.centre);
-    lines.push_back(log_.size());
-    log_.record(line);
-  }
-  if (!of_frame.empty()) scene_.frame->break_in_impact(of_frame);
-  return lines;
-}
-
-/// Sides that lost joints are the pieces that were hit. False: a piece is no body.
-bool BodyImpacts::fall_apart(BodyImpact& impact, const std::vector<JointBreak>& broken) {
-  for (ImpactSide& side : impact.sides) {
-    if (side.id.value < 0) continue;
-    const bool of_this = std::any_of(broken.begin(), broken.end(), [&](const JointBreak& one) {
-      return debris_.body_of(one.joint) == side.id.value;
-    });
-    if (!of_this) continue;
-    break_up_.forget(side.id);
-    (void)break_up_.come_apart(side.id);
-    const std::int64_t piece = debris_.body_of_part[static_cast<std::size_t>(side.tags.front())];
-    if (!debris_.bodies.contains(piece)) return false;
-    side = side_again(side, {piece});
-  }
-  return true;
-}
-
-/// These joints fail; bodies fall apart, and the push goes on with the pieces that touch. False: it is over.
-bool BodyImpacts::break_joints(BodyImpact& impact, Impact& push, YieldingPush& yielding,
-                               const std::vector<JointBreak>& broken) {
-  if (yielding.joints.any()) {
-    yielding.joints.hold();
-    yielding.lay(push);
-  }
-  const double stored = push.stored();
-  const Eigen::MatrixXd compliance = impact.compliance;
-  const Eigen::VectorXd force = push.force().head(compliance.rows());
-  const ImpactSide before_break = impact.sides[1];
-  const Eigen::VectorXd moved = push.indentation().tail(before_break.mode_compliance.size()),
-                        moving = push.closing_speed().tail(before_break.mode_compliance.size());
-  const std::vector<std::size_t> lines = record_breaks(broken);
-  std::vector<int> kept;
-  if (!fall_apart(impact, broken)) return false;
-  const auto holds = [&](const ImpactSide& side, std::size_t place) {
-    if (side.held) return scene_.stands(part_of_number(scene_.building, side.tags[place]));
-    return side.id.value < 0 || side.tags[place] < 0 ||
-           debris_.body_of_part[static_cast<std::size_t>(side.tags[place])] == side.id.value;
-  };
-  for (std::size_t i = 0; i < impact.places.size(); ++i)
-    if (push.may_touch(i) && holds(impact.sides[0], i) && holds(impact.sides[1], i))
-      kept.push_back(static_cast<int>(i));
-  double left = 0;
-  bool goes_on = !kept.empty();
-  if (goes_on) {
-    impact.keep(kept);
-    push.keep(kept);
-    yielding.keep(kept);
-    goes_on = take_up(impact);
-  }
-  if (goes_on) {
-    const std::vector<int> apart = independent_places(impact.compliance);
-    impact.keep(apart);
-    push.keep(apart);
-    yielding.keep(apart);
-    Eigen::MatrixXd before = compliance(kept, kept);
-    Eigen::VectorXd pressed = force(kept);
-    before = Eigen::MatrixXd(before(apart, apart));
-    pressed = Eigen::VectorXd(pressed(apart));
-    const Eigen::Index n = impact.compliance.rows();
-    push.change(impact.followed_mobility().topLeftCorner(n, n), impact.compliance,
-                shift_of_break(before, impact.compliance, pressed));
-    if (impact.sides[1].held)
-      push.bind(impact.followed_mobility(), impact.followed_compliance(),
-                carried_over(before_break, moved, impact.sides[1]),
-                carried_over(before_break, moving, impact.sides[1]));
-    yielding.take_up(impact, push);
-    left = push.stored();
-  }
-  for (const std::size_t line : lines)
-    log_[line].joint.energy = std::max(0.0, stored - left) / static_cast<double>(lines.size());
-  return goes_on;
 }
 
 }  // namespace topple::structure
