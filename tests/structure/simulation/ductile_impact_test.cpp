@@ -112,7 +112,8 @@ TEST_CASE("Ductile ends break in an impact where they turn through their limit, 
 }
 
 TEST_CASE("What hinges take in an impact does not come back") {
-  // Half of the approach, were it elastic: with restitution r it keeps r of its speed, less what the joints took.
+  // With restitution r it comes back with r2 of the energy that the joints left of its approach. Half of that bounds it
+  // from below, for the strain that stays in the post.
   const double speed = 8, restitution = 0.9;
   Simulation simulation = strike(built_in(joint_of(0.1)).building, speed, restitution);
   run(simulation);

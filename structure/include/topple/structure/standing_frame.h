@@ -284,7 +284,7 @@ class StandingFrame {
     std::vector<std::pair<JointId, Eigen::Matrix<double, 6, Eigen::Dynamic>>> node_demands;
     /// A sense of one of those joints that holds its capacity while it turns, and then breaks.
     struct Hinge {
-      JointId joint;
+      JointId joint;                ///< of a member's end
       int axis = 4;                 ///< component of the demand: 3 torsion, 4 and 5 moments
       double capacity = 0;          ///< N m, of either sign, as strong as the joint is now
       double limit = 0;             ///< rad, of its plastic rotation of either sign
@@ -292,7 +292,7 @@ class StandingFrame {
       double stiffness = 0;         ///< N m/rad: by how much its moment falls for 1 rad more, nodes held
       std::vector<std::pair<JointId, Vec6>> demands;  ///< of both joints of its member for that
     };
-    std::vector<Hinge> hinges;
+    std::vector<Hinge> hinges;  ///< but for a joint that alone holds its member
   };
   /// A component at rest begins to move.
   [[nodiscard]] HeldResponse respond_held(std::span<const ContactPlace> places, std::span<const Vec3> directions);
@@ -302,7 +302,7 @@ class StandingFrame {
   void remember_utilisation(JointId joint, double value);
   /// By how much a joint's hinge turned in an impact, of the sign of the moment that it held, and what it took.
   struct ImpactTurn {
-    JointId joint;
+    JointId joint;          ///< of a member's end
     int axis = 4;           ///< as HeldResponse::Hinge has it
     double turned = 0;      ///< rad
     double dissipated = 0;  ///< J
