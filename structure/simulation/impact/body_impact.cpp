@@ -7,6 +7,18 @@
 
 namespace topple::structure {
 
+std::vector<int> independent_places(const Eigen::MatrixXd& compliance) {
+  std::vector<int> kept;
+  Eigen::MatrixXd left = compliance;
+  for (Eigen::Index k = 0; k < left.rows(); ++k) {
+    if (!(left(k, k) > impact_settings.same_place * compliance(k, k))) continue;
+    kept.push_back(static_cast<int>(k));
+    const Eigen::VectorXd column = left.col(k) / left(k, k);
+    left -= (column * left.row(k)).eval();
+  }
+  return kept;
+}
+
 namespace {
 
 using Demands = Eigen::Matrix<double, 6, Eigen::Dynamic>;

@@ -60,4 +60,7 @@ struct BodyImpact {
 [[nodiscard]] Eigen::VectorXd carried_over(const ImpactSide& before, const Eigen::VectorXd& moved,
                                            const ImpactSide& now);
 
+/// Which places give way in ways of their own, in their order: of two that are one, the first.
+[[nodiscard]] std::vector<int> independent_places(const Eigen::MatrixXd& compliance);
+
 }  // namespace topple::structure

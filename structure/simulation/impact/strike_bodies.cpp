@@ -21,19 +21,6 @@ namespace {
 /// A joint that bears so much less than it can, relative to that, has not come to it by rounding.
 constexpr double rounding = 1e-9;
 
-/// Which places give way in ways of their own, in their order: of two that are one, the first.
-std::vector<int> independent_places(const Eigen::MatrixXd& compliance) {
-  std::vector<int> kept;
-  Eigen::MatrixXd left = compliance;
-  for (Eigen::Index k = 0; k < left.rows(); ++k) {
-    if (!(left(k, k) > impact_settings.same_place * compliance(k, k))) continue;
-    kept.push_back(static_cast<int>(k));
-    const Eigen::VectorXd column = left.col(k) / left(k, k);
-    left -= (column * left.row(k)).eval();
-  }
-  return kept;
-}
-
 }  // namespace
 
 BodyImpacts::BodyImpacts(const Sources& sources)
