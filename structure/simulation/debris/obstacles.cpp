@@ -1,9 +1,9 @@
 #include "simulation/debris/obstacles.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "simulation/debris/debris_settings.h"
+#include "simulation/debris/moved_pose.h"
 
 namespace topple::structure {
 
@@ -53,13 +53,7 @@ void Obstacles::put(std::size_t number, collision::World& world) const {
   world.move_obstacle(obstacle_of_part_[number], pose_of(part, found->second));
 }
 
-collision::Pose Obstacles::pose_of(Part part, const PartMotion& shift) const {
-  collision::Pose pose;
-  pose.position = middle(part) + shift.moved;
-  const double angle = shift.turned.norm();
-  if (angle > 0) pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(angle, shift.turned / angle));
-  return pose;
-}
+collision::Pose Obstacles::pose_of(Part part, const PartMotion& shift) const { return moved_pose(middle(part), shift); }
 
 collision::Pose Obstacles::carry(Part part, const StandingFrame& frame) {
   PartMotion& shift = shifted_[static_cast<std::size_t>(part_number(building_, part))];

@@ -5,18 +5,11 @@
 #include <cmath>
 
 #include "simulation/debris/debris_settings.h"
+#include "simulation/debris/moved_pose.h"
 
 namespace topple::structure {
 
 namespace {
-
-collision::Pose pose_of(const Vec3& at, const PartMotion& shift) {
-  collision::Pose pose;
-  pose.position = at + shift.moved;
-  const double angle = shift.turned.norm();
-  if (angle > 0) pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(angle, shift.turned / angle));
-  return pose;
-}
 
 /// Of a place on a rigid arm from the node.
 PartMotion rigid(const Vec6& node, const Vec3& arm) {
@@ -34,7 +27,7 @@ collision::ObstacleId StandingHolds::hold(const ContactPlace& place, NodeId fixe
   made.origin = point - shift.moved;
   made.followed = shift.moved;
   collision::ObstacleDescription nothing_to_touch;
-  nothing_to_touch.pose = pose_of(made.origin, shift);
+  nothing_to_touch.pose = moved_pose(made.origin, shift);
   const collision::ObstacleId id = scene_.world->add_obstacle(nothing_to_touch);
   holds_.emplace(id.value, made);
   return id;
@@ -69,7 +62,7 @@ collision::ObstacleMotion StandingHolds::motion(collision::ObstacleId obstacle) 
   const PartMotion shift = displacement(hold);
   hold.followed = shift.moved;
   collision::ObstacleMotion motion;
-  motion.pose = pose_of(hold.origin, shift);
+  motion.pose = moved_pose(hold.origin, shift);
   motion.mass = hold.mass;
   motion.inertia = hold.inertia;
   return motion;
@@ -103,7 +96,7 @@ void StandingHolds::follow() {
     const PartMotion now = displacement(hold);
     if (!((now.moved - hold.followed).norm() > debris_settings.follow)) continue;
     hold.followed = now.moved;
-    scene_.world->move_obstacle({id}, pose_of(hold.origin, now));
+    scene_.world->move_obstacle({id}, moved_pose(hold.origin, now));
   }
 }
 
