@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <tuple>
 
 #include "bullet/bullet_world.h"
-#include "contacts/swept_bounds.h"
+#include "contacts/moving_pairs.h"
 #include "contacts/touch_contact.h"
 
 namespace topple::collision {
@@ -31,14 +30,6 @@ struct NearestHit : btCollisionWorld::ClosestRayResultCallback {
     return ClosestRayResultCallback::addSingleResult(result, normal_in_world);
   }
 };
-
-/// No two points of them close faster than this within dt, m/s.
-double fastest_closing(const Solid& one, const Motion& motion, const Solid& other, const Motion& other_motion,
-                       double dt) {
-  return (motion.velocity - other_motion.velocity).length() +
-         (motion.acceleration - other_motion.acceleration).length() * dt +
-         motion.angular_velocity.length() * one.reach + other_motion.angular_velocity.length() * other.reach;
-}
 
 }  // namespace
 
@@ -148,21 +139,9 @@ void BulletWorld::sweep_standing(const Mover& mover, const SweepRange& range, st
 
 void BulletWorld::sweep_movers(const std::vector<Mover>& movers, const SweepRange& range,
                                std::vector<Contact>& found) const {
-  std::vector<const Mover*> by_x;
-  for (const Mover& mover : movers) by_x.push_back(&mover);
-  std::sort(by_x.begin(), by_x.end(), [](const Mover* a, const Mover* b) {
-    return std::make_tuple(a->whole.low.x(), a->body->id) < std::make_tuple(b->whole.low.x(), b->body->id);
+  each_moving_pair(movers, range.dt, range.least_speed, [&](const Mover& first, const Mover& second) {
+    sweep_pair(first, *second.body, second.motion, range.dt, found);
   });
-  for (std::size_t i = 0; i < by_x.size(); ++i) {
-    for (std::size_t j = i + 1; j < by_x.size() && by_x[j]->whole.low.x() <= by_x[i]->whole.high.x(); ++j) {
-      if (!by_x[i]->whole.meets(by_x[j]->whole)) continue;
-      const bool forward = by_x[i]->body->id < by_x[j]->body->id;
-      const Mover &first = *by_x[forward ? i : j], &second = *by_x[forward ? j : i];
-      if (fastest_closing(*first.body, first.motion, *second.body, second.motion, range.dt) < range.least_speed)
-        continue;
-      sweep_pair(first, *second.body, second.motion, range.dt, found);
-    }
-  }
 }
 
 std::vector<Contact> BulletWorld::sweep(double dt, Sweep what, double least_speed) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contacts/manifold_reduction.h"
+
 namespace topple::collision {
 
 namespace {
@@ -142,7 +144,7 @@ void collide_with_ground(const PartShape& part, const Placement& at, double heig
   manifold.normal = manifold.local_normal = down;
   manifold.normal_on_first = false;
   if (points.size() > Manifold::most) leave_out_covered(points, places);
-  keep_four(down, points, places, manifold);
+  reduce_to_four(down, points, places, manifold);
 }
 
 }  // namespace topple::collision

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contacts/manifold_reduction.h"
+
 namespace topple::collision {
 
 namespace {
@@ -296,65 +298,6 @@ std::pair<Vec3, Vec3> nearest_of_edges(const Vec3& a, const Vec3& a_end, const V
   return {a + s * u, b + t * v};
 }
 
-/// m: points within this of the deepest bear like it; it is more than what springs give way under a heap.
-constexpr double same_depth = 0.003;
-/// Of the patch's squared extent: what adds less to its width or area adds no bearing.
-constexpr double least_aspect = 0.02;
-
-}  // namespace
-
-void keep_four(const Vec3& normal, std::vector<ManifoldPoint>& points, std::vector<Vec3>& places, Manifold& manifold) {
-  const auto take = [&](std::size_t i) {
-    manifold.points[static_cast<std::size_t>(manifold.count++)] = points[i];
-    points[i] = points.back(), points.pop_back();
-    places[i] = places.back(), places.pop_back();
-  };
-  manifold.count = 0;
-  if (points.size() <= Manifold::most) {
-    for (const ManifoldPoint& point : points) manifold.points[static_cast<std::size_t>(manifold.count++)] = point;
-    return;
-  }
-  // What nearly touches bears before what is only near: a body that lost a corner under it each step would rock on it.
-  const auto deepest = std::min_element(points.begin(), points.end(),
-                                        [](const auto& p, const auto& q) { return p.separation < q.separation; });
-  auto chosen = static_cast<std::size_t>(deepest - points.begin());
-  const double bearing = points[chosen].separation + same_depth;
-  const auto most = [&](double useful, const auto& value) {
-    std::size_t best = 0;
-    double largest = -1;
-    bool bears = false;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const double now = std::max(0.0, value(i));
-      const bool as_deep = points[i].separation <= bearing && now > useful;
-      if (as_deep < bears || (as_deep == bears && now <= largest)) continue;
-      largest = now, best = i, bears = as_deep;
-    }
-    return best;
-  };
-  const Vec3 a = places[chosen];
-  take(chosen);
-  double extent = 0;  // squared
-  for (const Vec3& place : places) extent = std::max(extent, (place - a).squaredNorm());
-  const double enough = least_aspect * extent;
-  chosen = most(enough, [&](std::size_t i) { return (places[i] - a).squaredNorm(); });
-  const Vec3 b = places[chosen];
-  take(chosen);
-  const auto area = [&](const Vec3& p, const Vec3& q, std::size_t i) {
-    return normal.dot((p - places[i]).cross(q - places[i]));
-  };
-  chosen = most(enough, [&](std::size_t i) { return std::abs(area(a, b, i)); });
-  const Vec3 c = places[chosen];
-  const double side = area(a, b, chosen) < 0 ? -1 : 1;
-  take(chosen);
-  // What adds most to the triangle, outside of any of its sides.
-  chosen = most(enough, [&](std::size_t i) {
-    return std::max({-side * area(a, b, i), -side * area(b, c, i), -side * area(c, a, i)});
-  });
-  take(chosen);
-}
-
-namespace {
-
 /// Points found so far where two of a pair touch, given in the first's frame.
 struct Touching {
   const Pair& pair;
@@ -460,7 +403,7 @@ void collide(const Polyhedron& first, const Placement& first_at, const Polyhedro
   for (const ManifoldPoint& point : work.points) nearest = std::min(nearest, point.separation);
   if (found.separation < 0 && nearest > kLeftOut * found.separation)
     add_deepest(pair, axis.kind == SeparatingAxis::Kind::first_face, normal, found.separation, add);
-  keep_four(normal, work.points, work.places, manifold);
+  reduce_to_four(normal, work.points, work.places, manifold);
 }
 
 }  // namespace topple::collision

@@ -21,7 +21,4 @@ struct SeparatingAxis {
 void collide(const Polyhedron& first, const Placement& first_at, const Polyhedron& second, const Placement& second_at,
              double margin, SeparatingAxis& axis, Manifold& manifold);
 
-/// At most four of the points: the deepest, and those that span the most.
-void keep_four(const Vec3& normal, std::vector<ManifoldPoint>& points, std::vector<Vec3>& places, Manifold& manifold);
-
 }  // namespace topple::collision

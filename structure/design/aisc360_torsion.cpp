@@ -23,9 +23,8 @@ struct Stresses {
 Stresses stresses(const SteelSection& s, const SectionForces& at, const WarpingForces& w) {
   Stresses found;
   found.warping = warping_normal_stress(s, w.bimoment);
-  found.normal =
-      std::abs(at[0]) / s.area + std::abs(at[4]) / s.elastic_y + std::abs(at[5]) / s.elastic_z + found.warping;
-  found.uniform = std::abs(w.uniform_torque) * std::max(s.flange, s.web) / s.J;
+  found.normal = elastic_normal_stress(s, at) + found.warping;
+  found.uniform = uniform_torsion_stress(s, w.uniform_torque);
   const double in_web = std::abs(w.uniform_torque) * s.web / s.J + std::abs(at[2]) / (s.depth * s.web);
   const double in_flange = std::abs(w.uniform_torque) * s.flange / s.J + warping_shear_stress(s, w.warping_torque) +
                            1.5 * std::abs(at[1]) / (2 * s.width * s.flange);

@@ -20,16 +20,15 @@ struct Stresses {
 Stresses stresses(const SteelSection& s, const SectionForces& at, const WarpingForces& w) {
   Stresses found;
   found.warping = warping_normal_stress(s, w.bimoment);
-  found.normal =
-      std::abs(at[0]) / s.area + std::abs(at[4]) / s.elastic_y + std::abs(at[5]) / s.elastic_z + found.warping;
-  found.uniform = std::abs(w.uniform_torque) * std::max(s.flange, s.web) / s.J;
+  found.normal = elastic_normal_stress(s, at) + found.warping;
+  found.uniform = uniform_torsion_stress(s, w.uniform_torque);
   found.flange_shear =
       found.uniform + warping_shear_stress(s, w.warping_torque) + 1.5 * std::abs(at[1]) / (2 * s.width * s.flange);
   return found;
 }
 
 /// Von Mises at the flanges' tips, and shear in the middle of a flange.
-double elastic_use(const SteelSection& s, const Stresses& at) {
+double elastic_utilisation(const SteelSection& s, const Stresses& at) {
   const double tip = std::sqrt(at.normal * at.normal + 3 * at.uniform * at.uniform);
   return std::max(tip, std::sqrt(3.0) * at.flange_shear) * gamma_m0 / s.fy;
 }
@@ -44,7 +43,7 @@ void trace(const SteelSection& s, const SectionForces& at, const WarpingForces& 
   trail.add(elastic, "sigma_x", "N/A + M_y/W_el,y + M_z/W_el,z + sigma_w", found.normal, of_stress);
   trail.add(elastic, "tau_t", "T_t t/I_t", found.uniform, of_stress);
   trail.add(elastic, "use", "sqrt(sigma_x^2 + 3 tau_t^2)/f_y, or sqrt(3) (tau_t + tau_w + tau_V)/f_y in the flange",
-            elastic_use(s, found), plain_number);
+            elastic_utilisation(s, found), plain_number);
 }
 
 void check_warping(ClauseList& clauses, const SteelSection& s, const Resistance& r,
@@ -55,7 +54,7 @@ void check_warping(ClauseList& clauses, const SteelSection& s, const Resistance&
   for (std::size_t k = 0; k < stations.size(); ++k) {
     const SectionForces& at = stations[k];
     const Stresses found = stresses(s, at, warping[k]);
-    const double use = elastic_use(s, found);
+    const double use = elastic_utilisation(s, found);
     if (found.warping + std::sqrt(3.0) * found.uniform > significant * s.fy) clauses.add(elastic, use);
     clauses.add(plastic, std::abs(at[0]) / r.axial + std::abs(at[4]) / r.moment_y + std::abs(at[5]) / r.moment_z +
                              found.warping * gamma_m0 / s.fy);

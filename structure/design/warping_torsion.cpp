@@ -119,4 +119,12 @@ double warping_shear_stress(const SteelSection& steel, double warping_torque) {
   return 1.5 * std::abs(warping_torque) / ((steel.depth - steel.flange) * steel.width * steel.flange);
 }
 
+double elastic_normal_stress(const SteelSection& steel, const SectionForces& at) {
+  return std::abs(at[0]) / steel.area + std::abs(at[4]) / steel.elastic_y + std::abs(at[5]) / steel.elastic_z;
+}
+
+double uniform_torsion_stress(const SteelSection& steel, double uniform_torque) {
+  return std::abs(uniform_torque) * std::max(steel.flange, steel.web) / steel.J;
+}
+
 }  // namespace topple::structure

@@ -31,5 +31,9 @@ struct WarpingForces {
 /// and shear in the middle of a flange, 1.5 Tw/((h - tf) b tf).
 [[nodiscard]] double warping_normal_stress(const SteelSection& steel, double bimoment);
 [[nodiscard]] double warping_shear_stress(const SteelSection& steel, double warping_torque);
+/// The largest of an axial force and both moments together, at a corner of the section.
+[[nodiscard]] double elastic_normal_stress(const SteelSection& steel, const SectionForces& at);
+/// The largest shear stress of Saint-Venant's part of a torque, in the thickest plate.
+[[nodiscard]] double uniform_torsion_stress(const SteelSection& steel, double uniform_torque);
 
 }  // namespace topple::structure

@@ -37,10 +37,8 @@ template <class Factor>
 [[nodiscard]] Vec3 read_point(const JsonValue& value, double factor);
 [[nodiscard]] std::vector<std::string> read_names(const JsonValue& list);
 [[nodiscard]] MemberDesign read_member_design(const JsonValue& value, const Scale& scale);
-[[nodiscard]] PanelModel read_panel_model(const JsonValue& value);
-[[nodiscard]] Span read_span(const JsonValue& value);
-[[nodiscard]] std::array<int, 2> read_mesh(const JsonValue& value);
-[[nodiscard]] std::vector<std::vector<Vec2>> read_openings(const JsonValue& value, const Scale& scale);
+/// The keys that a panel of a model and one of a generator share: model, span, mesh, fracture, openings.
+void read_panel_keys(const JsonValue& value, const Scale& scale, Panel& panel);
 
 template <class Factor>
 Vec6 read_components(const JsonValue& object, Factor factor) {

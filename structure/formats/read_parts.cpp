@@ -22,6 +22,8 @@ std::vector<std::string> read_names(const JsonValue& list) {
   return names;
 }
 
+namespace {
+
 PanelModel read_panel_model(const JsonValue& value) {
   const std::string_view model = value.text("\"membrane\", \"cladding\" or \"shell\"");
   if (model == "membrane") return PanelModel::membrane;
@@ -67,6 +69,19 @@ std::vector<std::vector<Vec2>> read_openings(const JsonValue& value, const Scale
     }
   }
   return openings;
+}
+
+}  // namespace
+
+void read_panel_keys(const JsonValue& value, const Scale& scale, Panel& panel) {
+  if (const auto model = value.find("model")) panel.model = read_panel_model(*model);
+  if (const auto span = value.find("span")) panel.span = read_span(*span);
+  if (const auto mesh = value.find("mesh"))
+    panel.mesh = read_mesh(*mesh);
+  else if (panel.model == PanelModel::shell)
+    panel.mesh = mesh_not_given;  // by its span, when the whole model is read
+  if (const auto fracture = value.find("fracture")) panel.fracture = read_fracture(*fracture, scale.length);
+  if (const auto openings = value.find("openings")) panel.openings = read_openings(*openings, scale);
 }
 
 namespace {
@@ -160,14 +175,7 @@ void read_panel(const JsonValue& value, ModelDraft& draft) {
   (void)thickness.positive();
   panel.thickness = scaled(thickness, draft.scale.length);
   panel.material = draft.material(value.require("material"));
-  if (const auto model = value.find("model")) panel.model = read_panel_model(*model);
-  if (const auto span = value.find("span")) panel.span = read_span(*span);
-  if (const auto mesh = value.find("mesh"))
-    panel.mesh = read_mesh(*mesh);
-  else if (panel.model == PanelModel::shell)
-    panel.mesh = mesh_not_given;  // by its span, when the whole model is read
-  if (const auto fracture = value.find("fracture")) panel.fracture = read_fracture(*fracture, draft.scale.length);
-  if (const auto openings = value.find("openings")) panel.openings = read_openings(*openings, draft.scale);
+  read_panel_keys(value, draft.scale, panel);
   if (const auto joint = value.find("joint")) draft_panel.joint = draft.joint_type(*joint);
   if (const auto groups = value.find("groups")) panel.groups = read_names(*groups);
   draft.add_panel(std::move(draft_panel), value);

@@ -4,8 +4,6 @@
 #include <algorithm>
 
 #include "formats/model_reader.h"
-#include "formats/read_fracture.h"
-#include "mesh/usual_mesh.h"
 
 namespace topple::structure::formats {
 
@@ -154,14 +152,7 @@ class PlanReader {
     panel.thickness = scaled(thickness, draft_.scale.length);
     panel.material = draft_.material(value.require("material"));
     if (const auto joint = value.find("joint")) rule.draft.joint = draft_.joint_type(*joint);
-    if (const auto model = value.find("model")) panel.model = read_panel_model(*model);
-    if (const auto span = value.find("span")) panel.span = read_span(*span);
-    if (const auto mesh = value.find("mesh"))
-      panel.mesh = read_mesh(*mesh);
-    else if (panel.model == PanelModel::shell)
-      panel.mesh = mesh_not_given;  // by its span, when the whole model is read
-    if (const auto fracture = value.find("fracture")) panel.fracture = read_fracture(*fracture, draft_.scale.length);
-    if (const auto openings = value.find("openings")) panel.openings = read_openings(*openings, draft_.scale);
+    read_panel_keys(value, draft_.scale, panel);
     if (const auto groups = value.find("groups")) panel.groups = read_names(*groups);
     if (const auto pressure = value.find("pressure")) {
       pressure->expect_object();
