@@ -7,14 +7,11 @@
 
 #include "analysis/answer_recovery.h"
 #include "analysis/answer_warnings.h"
-#include "analysis/divided_member.h"
 #include "analysis/instability.h"
-#include "analysis/largest_displacement.h"
-#include "analysis/motion/modal_masses.h"
+#include "analysis/natural_modes.h"
 #include "analysis/one_way_members.h"
 #include "analysis/request_checks.h"
 #include "analysis/sample_analysis.h"
-#include "analysis/undivided_members.h"
 #include "loads/case_loads.h"
 #include "mesh/frame_mesh.h"
 #include "mesh/semi_rigid_elements.h"
@@ -23,7 +20,6 @@
 #include "topple/solver/case_sums.h"
 #include "topple/solver/kept_memory.h"
 #include "topple/solver/parallel_for.h"
-#include "topple/solver/shifted_modes.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
 #include "topple/structure/frame.h"
@@ -324,65 +320,19 @@ class Analysis {
     return text + "; " + describe_buckling(building_, frame_, buckled);
   }
 
-  /// Without load, all one-way members taut; with second order as the last combination has left the structure.
+  /// As the last combination has left the structure, where that is asked for.
   void find_modes(AnalysisResult& result) const {
     report_progress("natural modes");
-    Frame frame = frame_;
-    const bool tangent_counts = request_.second_order != solver::SecondOrder::none && !floats_;
-    if (tangent_counts) frame.model.beams = tangent_beams_;
-    if (request_.divide > 1) result.mode_cuts = divide_evenly(building_, request_.divide, frame);
-    solver::MassModel masses{request_.mass,
-                             request_.torsional_mass,
-                             request_.rotary_inertia,
-                             modal_masses(building_, frame, edges_, request_.divide > 1),
-                             mass_lengths(building_, frame),
-                             jointed_};
-    const solver::FrameModel model = carrying_both(frame.model);
-    const solver::AxialState state = tangent_counts ? divided_state(frame_, frame, tangent_) : solver::AxialState();
-    const solver::AxialState* tangent = tangent_counts ? &state : nullptr;
-    solver::ModalAnswer answer = modes_of(model, masses, tangent);
-    result.modes = std::move(answer.modes);
-    for (solver::VibrationMode& mode : result.modes) scale_shape(mode.shape, result.mode_cuts);
-    result.moving_mass = answer.moving_mass;
-    if (static_cast<int>(result.modes.size()) < request_.modes)
-      result.warnings.push_back("the masses have " + std::to_string(result.modes.size()) + " modes, " +
-                                std::to_string(request_.modes) + " were asked for");
-    // Frame3DD's files ask for modes themselves, and for elements as they are.
-    if (building_.requested.modes > 0) return;
-    if (std::string told = told_undivided(building_, frame, result.modes); !told.empty())
-      result.warnings.push_back(std::move(told));
+    const bool second_order = request_.second_order != solver::SecondOrder::none && !floats_;
+    find_natural_modes({building_, request_, frame_, edges_, jointed_, floats_},
+                       second_order ? std::optional(ModalTangent{tangent_beams_, tangent_}) : std::nullopt, result);
   }
+  void scale_shape(std::vector<Vec6>& shape) const { scale_to_largest(building_, frame_, {}, shape); }
 
-  [[nodiscard]] solver::ModalAnswer modes_of(const solver::FrameModel& model, const solver::MassModel& masses,
-                                             const solver::AxialState* tangent) const {
-    try {
-      if (!floats_) return solver::natural_modes(model, masses, request_.modes, request_.solver, tangent);
-      return solver::shifted_modes(model, masses, request_.modes, building_.requested.frequency_shift, request_.solver,
-                                   tangent);
-    } catch (const solver::UnresolvedModes& unresolved) {
-      throw InputError(describe_unresolved(building_, unresolved));
-    }
-  }
-
-  /// So that no point of any node or member, bent between its ends, moves by more than 1; what is noise beside that is
-  /// nothing.
-  void scale_shape(std::vector<Vec6>& shape, const std::vector<std::vector<int>>& cuts = {}) const {
-    make_shape_absolute(frame_, shape);
-    const double largest = largest_in_shape(building_, shape, cuts);
-    double most = 0;
-    for (const Vec6& motion : shape) most = std::max(most, motion.cwiseAbs().maxCoeff());
-    constexpr double noise = 1e-12;
-    for (Vec6& motion : shape)
-      for (double& component : motion) {
-        if (std::abs(component) < noise * most) component = 0;
-        if (largest > 0) component /= largest;
-      }
-  }
-
-  const Building& building_;
   /// Beyond it no factor is looked for.
   static constexpr double largest_buckling_factor = 1e6;
 
+  const Building& building_;
   const AnalysisRequest& request_;
   solver::KeptEquations* kept_;  ///< null: nothing is kept
   Frame frame_;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <stdexcept>
 
 #include "renderer/gpu_scene.h"
 #include "renderer/gpu_timer.h"
 #include "renderer/render_targets.h"
 #include "renderer/shaders.h"
+#include "renderer/shadow_light.h"
 #include "renderer/shapes/dust_buffer.h"
 #include "renderer/shapes/overlay_buffer.h"
 
@@ -19,8 +19,6 @@ namespace {
 
 using structure::PanelKind;
 
-constexpr glm::vec3 to_sun{-0.34F, -0.56F, 0.75F};
-constexpr int shadow_size = 2048;
 /// Colours fade over this length from a joint, as a share of the building's radius, within these limits by storey size.
 constexpr float fade_share = 0.085F;
 /// Where colours carry a meaning, this share of the light is the same on every side.
@@ -47,36 +45,6 @@ float drawn_radius(const SceneInstances& scene) {
     for (std::size_t i = batch.standing; i < batch.instances.size(); ++i) reach(batch.instances[i].first_end);
   for (const auto& instance : scene.projectiles().instances) reach(instance.position);
   return std::min(radius * 1.1F, 4 * own);
-}
-
-/// A square of half this width around a place, seen from the sun; everything within `all` of the origin casts into it.
-/// It moves by whole texels, so that shadows do not swim when the eye does.
-glm::mat4 light_matrix(glm::vec3 centre, float half, float all) {
-  const glm::vec3 sun = glm::normalize(to_sun);
-  const glm::mat4 turned = glm::lookAt(sun, glm::vec3(0), glm::vec3(0, 0, 1));
-  const float texel = 2 * half / shadow_size;
-  const glm::vec3 at = glm::vec3(turned * glm::vec4(centre, 1));
-  const glm::vec2 middle = glm::floor(glm::vec2(at) / texel) * texel;
-  return glm::ortho(middle.x - half, middle.x + half, middle.y - half, middle.y + half, -2 * all, 2 * all) * turned;
-}
-
-/// Layers of the shadow map: the last holds all that is drawn, those before a third and a ninth of that around where
-/// the eye looks.
-void place_lights(PictureBlock& picture, const Camera& camera, const glm::dvec3& origin, float reach) {
-  const glm::vec3 eye(camera.eye - origin), ahead(camera.forward());
-  float half = reach;
-  for (int k = ShadowMap::cascades - 1; k >= 0; --k, half /= 3) {
-    const bool last = k == ShadowMap::cascades - 1;
-    // What is near the eye in the picture, as far as the layer reaches.
-    const float way = std::min(static_cast<float>(camera.distance()), 1.2F * half);
-    const glm::vec3 centre = last ? glm::vec3(0) : eye + way * ahead;
-    picture.light[k] = light_matrix(centre, half, 2 * reach);
-    picture.reaches[k] = half;
-    picture.texels[k] = 2 * half / shadow_size;
-  }
-  // What is straight above: how much of the sky a place sees.
-  const glm::mat4 down = glm::lookAt(glm::vec3(0, 0, 1), glm::vec3(0), glm::vec3(0, 1, 0));
-  picture.light[ShadowMap::cascades] = glm::ortho(-reach, reach, -reach, reach, -2 * reach, 2 * reach) * down;
 }
 
 }  // namespace
@@ -135,7 +103,7 @@ void Renderer::State::fill_block(const SceneInstances& instances, const Camera& 
   picture.view_projection =
       camera.projection(static_cast<double>(size.x) / size.y, near, far) * camera.view(instances.origin());
   picture.inverse_view_projection = glm::inverse(picture.view_projection);
-  place_lights(picture, camera, instances.origin(), reach);
+  set_light_matrices(picture, camera, instances.origin(), reach);
   picture.eye = glm::vec4(eye, static_cast<float>(ground_height - instances.origin().z));
   picture.sun = glm::vec4(glm::normalize(to_sun), options.shadows ? 1.0F : 0.0F);
   const auto spacing = options.grid ? static_cast<float>(round_spacing(radius / 4)) : 0.0F;
