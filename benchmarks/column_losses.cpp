@@ -9,7 +9,7 @@
 #include "support/changed_frame.h"
 #include "support/measure.h"
 #include "support/provenance.h"
-#include "support/steel_uses.h"
+#include "support/steel_utilisations.h"
 
 using namespace topple;
 using namespace topple::bench;
@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   std::vector<int> posts;
   for (int k = 0; k < lost_storeys; ++k)
     for (int p = 0; p < nx * ny; ++p) posts.push_back(k * in_a_storey + p);
-  SteelUses uses(standing);
+  SteelUtilisations uses(standing);
   double worst = 0, largest_error = 0, largest_backward = 0, time = 0;
   int last = -1, refined = 0;
   constexpr std::size_t together = 16;

@@ -1,6 +1,6 @@
 // What a substep of a frame that moves costs, beside the triangular solves of a static answer over the same factor:
 // with all joints looked at, with and without the ledger of energy; and what a joint that breaks in it adds, beside one
-// answer of the static ladder.
+// static answer.
 //   bench_dynamics [posts_x posts_y storeys]      (default: 4 5 6 and 10 10 40)
 // Asked on a quiet machine: at 24,000 freedoms 1.3 solve pairs, at 720 0.06 ms.
 #include <cstdlib>
@@ -27,10 +27,10 @@ class Strong : public solver::JointLaw {
     limit_.breakable = true;
     limit_.value = {3e8, 3e8, 6e7, 6e7, 5e6, 3e7, 1e7};
   }
-  [[nodiscard]] double beam_use(int beam, const solver::Vec12& forces) const override {
-    return std::max(end_use(beam, 0, forces), end_use(beam, 1, forces));
+  [[nodiscard]] double beam_utilisation(int beam, const solver::Vec12& forces) const override {
+    return std::max(end_utilisation(beam, 0, forces), end_utilisation(beam, 1, forces));
   }
-  [[nodiscard]] double end_use(int, int end, const solver::Vec12& forces) const override {
+  [[nodiscard]] double end_utilisation(int, int end, const solver::Vec12& forces) const override {
     return structure::utilisation(limit_, structure::member_joint_demand(forces, end)).value;
   }
 
@@ -82,7 +82,7 @@ void measure(int nx, int ny, int storeys) {
               1e3 * times[1] / repeated, times[1] / times[0], 1e3 * times[2] / repeated, times[2] / times[0],
               1e3 * times[3] / repeated, times[3] / times[0]);
 
-  // Joints that break one after the other, a substep each, against answers of the static ladder.
+  // Joints that break one after the other, a substep each, against answers of the static reanalysis.
   std::vector<double> moved, answered;
   const std::vector<int> members = random_members(regular, 9, 1);
   for (const int member : members) {
@@ -91,7 +91,7 @@ void measure(int nx, int ny, int storeys) {
     standing->set_end_stiffness(member, 1, solver::Vec6::Zero());
     answered.push_back(seconds([&] { (void)standing->solve(); }));
   }
-  std::printf("         a substep with a break %.3f ms; an answer of the static ladder %.3f ms\n", 1e3 * median(moved),
+  std::printf("         a substep with a break %.3f ms; a static answer %.3f ms\n", 1e3 * median(moved),
               1e3 * median(answered));
 }
 

@@ -9,7 +9,7 @@
 
 #include "elements/beam.h"
 #include "support/changed_frame.h"
-#include "support/steel_uses.h"
+#include "support/steel_utilisations.h"
 #include "topple/solver/beam_diagram.h"
 
 using namespace topple;

@@ -13,7 +13,7 @@
 #include "support/changed_frame.h"
 #include "support/measure.h"
 #include "support/provenance.h"
-#include "support/steel_uses.h"
+#include "support/steel_utilisations.h"
 
 using namespace topple;
 using namespace topple::bench;
@@ -105,7 +105,7 @@ struct Restricted {
 };
 
 Restricted first_break_in_part(solver::Reanalysis& standing, const std::vector<int>& members) {
-  SteelUses uses(standing);
+  SteelUtilisations uses(standing);
   (void)standing.solve(uses);
   std::vector<double> times, visited, beams, left;
   Restricted result;
@@ -199,7 +199,7 @@ int main(int argc, char** argv) {
   structure = stand(frame);
   const Restricted part = first_break_in_part(*structure, some);
   std::printf(
-      "one joint: restricted answer       %9.3f ms = 1/%.1f factorisation = %.2f pairs, uses read (asked: 1/40, 0.6 "
+      "one joint: selective answer        %9.3f ms = 1/%.1f factorisation = %.2f pairs, uses read (asked: 1/40, 0.6 "
       "at 24,000 freedoms, 0.35 at 190,000)\n",
       1e3 * part.time, refactor / part.time, part.time / pair);
   std::printf(

@@ -54,11 +54,11 @@ void compare(const LossState& state, Comparison& sum) {
     const auto found = std::find_if(state.joints.begin(), state.joints.end(), same);
     if (found == state.joints.end()) continue;
     by_factor = std::max(by_factor, found->second.value);
-    in_motion = std::max(in_motion, peak.use.value);
-    if (!(peak.use.value >= counts_from)) continue;
+    in_motion = std::max(in_motion, peak.utilisation.value);
+    if (!(peak.utilisation.value >= counts_from)) continue;
     ++sum.joints;
-    sum.safe_joints += found->second.value >= (1 - close) * peak.use.value ? 1 : 0;
-    sum.each.push_back(found->second.value / peak.use.value);
+    sum.safe_joints += found->second.value >= (1 - close) * peak.utilisation.value ? 1 : 0;
+    sum.each.push_back(found->second.value / peak.utilisation.value);
   }
   if (!(in_motion > 0)) return;
   ++sum.stand;

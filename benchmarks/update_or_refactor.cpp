@@ -1,5 +1,5 @@
-// Where the ladder changes rungs: more and more joints broken at once, by a correction and by a new factor, and which
-// of the two the ladder takes. Asked: its choice takes at most 1.3 times as long as the better one.
+// Where an update gives way to a new factor: more and more joints broken at once, by a correction and by a new factor,
+// and which of the two Reanalysis takes. Asked: its choice takes at most 1.3 times as long as the better one.
 //   bench_update_or_refactor [posts_x posts_y storeys [counts]]      (default 10 10 20)
 // With `counts` also what the prediction is made of, a line for each measurement.
 #include <cstdlib>
@@ -25,7 +25,7 @@ struct Times {
   solver::FactorWork factor_work;
 };
 
-/// All of the members but the last break. Each rung's own work for one answer: correction and solve, or factorisation,
+/// All of the members but the last break. Each way's own work for one answer: correction and solve, or factorisation,
 /// estimate of the condition, what makes the new factor the one that stands, and solve.
 Times break_at_once(const RegularFrame& frame, solver::Factor& whole, std::span<const int> members) {
   solver::FrameSystem system(frame.model);
@@ -90,7 +90,7 @@ void print_counts(const Times& t) {
       f.freedoms);
 }
 
-/// What the ladder itself does.
+/// What Reanalysis itself does.
 bool takes_correction(const RegularFrame& frame, const std::vector<int>& members) {
   solver::Reanalysis standing(frame.model);
   if (!standing.solve().stable) std::exit(1);
@@ -104,21 +104,21 @@ bool takes_correction(const RegularFrame& frame, const std::vector<int>& members
 int main(int argc, char** argv) {
   solver::prepare_blas(argv);
   if (argc != 1 && argc != 4 && argc != 5) {
-    std::fprintf(stderr, "usage: bench_ladder [posts_x posts_y storeys [counts]]\n");
+    std::fprintf(stderr, "usage: bench_update_or_refactor [posts_x posts_y storeys [counts]]\n");
     return 2;
   }
   const bool counts = argc == 5;
   const int nx = argc > 1 ? std::atoi(argv[1]) : 10, ny = argc > 1 ? std::atoi(argv[2]) : 10;
   const int storeys = argc > 1 ? std::atoi(argv[3]) : 20;
   if (nx < 2 || ny < 2 || storeys < 1) {
-    std::fprintf(stderr, "bench_ladder: at least 2 x 2 posts, 1 storey\n");
+    std::fprintf(stderr, "bench_update_or_refactor: at least 2 x 2 posts, 1 storey\n");
     return 2;
   }
   const RegularFrame frame = regular_frame(nx, ny, storeys);
-  print_provenance("The ladder's choice over the number of joints broken at once", 1);
+  print_provenance("The choice of strategy over the number of joints broken at once", 1);
   std::printf("%d x %d posts, %d storeys, %zu freedoms\n\n", nx, ny, storeys,
               6 * static_cast<std::size_t>(nx * ny * storeys));
-  std::printf("  joints   correction   new factor   the ladder takes   times the better\n");
+  std::printf("  joints   correction   new factor   what it takes      times the better\n");
   solver::FrameSystem system(frame.model);
   system.assemble();
   solver::Factor whole(system.matrix(), system.elimination_order(), solver::Factorisation::automatic);

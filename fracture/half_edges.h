@@ -125,14 +125,14 @@ template <class Inside>
 std::vector<int> HalfEdges::collect(const std::vector<int>& chain, const Inside& inside) {
   std::vector<int> found;
   leave_all();
-  const auto look_at = [&](int triangle) {
+  const auto collect_once = [&](int triangle) {
     if (visit(triangle) && inside(triangle)) found.push_back(triangle);
   };
   for (const int vertex : chain)
-    for (const int triangle : star(vertex)) look_at(triangle);
+    for (const int triangle : star(vertex)) collect_once(triangle);
   for (std::size_t i = 0; i < found.size(); ++i)
     for (const int edge : sides(found[i]))
-      if (twin(edge) != none) look_at(triangle_of(twin(edge)));
+      if (twin(edge) != none) collect_once(triangle_of(twin(edge)));
   return found;
 }
 

@@ -55,10 +55,11 @@ void bind_verdict(py::class_<LossStateView>& state) {
           "worst", [](const LossStateView& s) { return name_or_none(s.building(), s.get().worst); },
           "Name of the joint that is used most; None when no joint has a capacity.")
       .def_property_readonly(
-          "utilisation", [](const LossStateView& s) { return s.get().use.value; },
+          "utilisation", [](const LossStateView& s) { return s.get().utilisation.value; },
           "Of that joint, demand over capacity, 1 is the limit.")
       .def_property_readonly(
-          "sense", [](const LossStateView& s) { return sense_names[static_cast<std::size_t>(s.get().use.sense)]; },
+          "sense",
+          [](const LossStateView& s) { return sense_names[static_cast<std::size_t>(s.get().utilisation.sense)]; },
           "The sense in which it is used most, one of topple.SENSES.");
 }
 
@@ -134,7 +135,7 @@ void bind_peaks(py::class_<MotionView>& motion) {
           "utilisations",
           [](const MotionView& m) {
             return field_of<JointPeak, double>(
-                m.get().joints, [](const JointPeak& one) { return &one.use.value; }, m.owner());
+                m.get().joints, [](const JointPeak& one) { return &one.utilisation.value; }, m.owner());
           },
           "Their largest utilisations, shape (joints,).")
       .def_property_readonly(
@@ -250,7 +251,8 @@ void bind_losses(py::module_& module) {
           [](const LossView& l) {
             double largest = 0;
             for (const LossState& one : l.get().states)
-              largest = std::max(largest, one.stands() ? one.use.value : std::numeric_limits<double>::infinity());
+              largest =
+                  std::max(largest, one.stands() ? one.utilisation.value : std::numeric_limits<double>::infinity());
             return largest;
           },
           "The largest utilisation of all states; inf for a mechanism.");

@@ -126,7 +126,7 @@ class FunctionEvaluator : public SampleEvaluator {
     for (std::size_t i = 0; i < sample.inputs.size(); ++i)
       inputs[py::str(task_.sampler.variables()[i].name)] = object_of(sample.inputs[i]);
     try {
-      take(function_(**inputs), sample);
+      append_outputs(function_(**inputs), sample);
     } catch (py::error_already_set& error) {
       if (!error.matches(PyExc_Exception)) throw Ended{error};
       const std::string said = py::str(error.value());
@@ -137,7 +137,7 @@ class FunctionEvaluator : public SampleEvaluator {
   }
 
  private:
-  void take(const py::object& returned, Sample& sample) const {
+  void append_outputs(const py::object& returned, Sample& sample) const {
     const std::vector<std::string>& names = task_.outputs;
     if (py::isinstance<py::dict>(returned)) {
       const py::dict numbers = returned;

@@ -19,14 +19,14 @@ class Canvas {
       : lower_(lower), upper_(upper), scale_((kPixels - 2 * kMargin) / std::max(1e-300, (upper - lower).x())) {}
 
   [[nodiscard]] double height() const { return (upper_ - lower_).y() * scale_ + 2 * kMargin; }
-  [[nodiscard]] Vec2 place(const Vec2& point) const {
+  [[nodiscard]] Vec2 to_picture(const Vec2& point) const {
     return {kMargin + (point.x() - lower_.x()) * scale_, kMargin + (upper_.y() - point.y()) * scale_};
   }
   template <class Points>
   [[nodiscard]] std::string path(const Points& points) const {
     std::string text;
     for (const Vec2& point : points) {
-      const Vec2 at = place(point);
+      const Vec2 at = to_picture(point);
       char buffer[64];
       std::snprintf(buffer, sizeof buffer, "%c%.2f %.2f", text.empty() ? 'M' : 'L', at.x(), at.y());
       text += buffer;
@@ -72,7 +72,7 @@ std::string pattern_svg(const structure::PanelFile& file, const fracture::Breaka
   for (const Polygon& opening : file.shape.openings) text += "<path d=\"" + canvas.path(opening) + "\"/>\n";
   text += "</g>\n<g stroke=\"#c00000\" stroke-width=\"2\">\n";
   for (const structure::PanelHit& hit : file.hits) {
-    const Vec2 at = canvas.place(hit.at);
+    const Vec2 at = canvas.to_picture(hit.at);
     char cross[200];
     std::snprintf(cross, sizeof cross, "<path d=\"M%.2f %.2fl10 10m0 -10l-10 10\"/>\n", at.x() - 5, at.y() - 5);
     text += cross;

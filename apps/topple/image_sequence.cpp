@@ -71,7 +71,7 @@ ImageSequence::ImageSequence(const structure::Simulation& simulation, std::files
 void ImageSequence::write_due(const structure::Simulation& simulation) {
   const double due = simulation.time() * state_->rate + 1e-6;
   if (state_->next > due) return;
-  const viewer::Snapshot now = state_->taker.take(simulation, state_->visual_mesh);
+  const viewer::Snapshot now = state_->taker.capture(simulation, state_->visual_mesh);
   while (state_->next <= due) state_->write(now);
 }
 

@@ -45,7 +45,7 @@ struct Chosen {
 };
 
 /// Of each member the combination in which it is used most.
-std::vector<Chosen> worst_uses(const Building& building, const AnalysisResult& result) {
+std::vector<Chosen> worst_utilisations(const Building& building, const AnalysisResult& result) {
   std::vector<Chosen> all;
   for (std::size_t m = 0; m < building.members.size(); ++m) {
     Chosen worst{m, 0, -1};
@@ -62,7 +62,7 @@ std::vector<Chosen> worst_uses(const Building& building, const AnalysisResult& r
 std::vector<Chosen> governing_members(const Building& building, const AnalysisResult& result) {
   std::map<int, int> of_section;
   std::vector<Chosen> chosen;
-  for (const Chosen& one : worst_uses(building, result))
+  for (const Chosen& one : worst_utilisations(building, result))
     if (of_section[building.members[one.member].section.index]++ == 0 && chosen.size() < most_audits)
       chosen.push_back(one);
   return chosen;

@@ -153,7 +153,7 @@ class OwnSamples {
   ~OwnSamples() {
     for (std::jthread& thread : threads_) thread.join();
   }
-  [[nodiscard]] std::deque<Line> take() {
+  [[nodiscard]] std::deque<Line> extract() {
     const std::lock_guard lock(mutex_);
     return std::exchange(made_, {});
   }
@@ -267,7 +267,7 @@ void Ranks::run_workers(const StudyTask& task, const StudyRun& run, StudyJournal
     int working = size_ - 1;
     std::string bytes;
     while (working > 0 || own.running()) {
-      const std::deque<Line> mine = own.take();
+      const std::deque<Line> mine = own.extract();
       for (const Line& line : mine) write(line, "rank 0");
       const int from = receive(bytes);
       if (from >= 0) {

@@ -32,7 +32,7 @@ TEXT = ("Errors are relative, of the mean roof sag and root mean square over all
         "against the same frame solved in extended precision. With a load that changes, 100 kN push down on one corner of the roof, half and one and "
         "a half of them at alternate steps; Bullet is measured by its mean over the last seconds against the frame under the mean load, which "
         "favours it, Topple by its last step. Settled: until the sag stays within 5 % of where it ends (steps times the time of one); for Topple "
-        "the step is the settled answer. Restricted answers are timed until it is known which joint would break next, and measured after they "
+        "the step is the settled answer. Selective answers are timed until it is known which joint would break next, and measured after they "
         "were made whole. Fresh ways with a changed load keep their factor and refine, recover and check everything at each step. On the largest frame direct "
         "solvers, whose matrices are dense, and the slowest others are left out. A method that was stopped at its time limit is drawn where it was then, and its note says so. What is not shown: debris and contacts; that elastic joints are what is wanted; memory.")
 

@@ -9,23 +9,23 @@ namespace topple::bench {
 
 /// Steel of 355 MPa, plastic moments of about 1.15 times the elastic ones, all scaled so that the joint that is used
 /// most bears `share` of its capacity in the present answer.
-class SteelUses : public solver::UseWatch {
+class SteelUtilisations : public solver::UtilisationWatch {
  public:
-  explicit SteelUses(const solver::Reanalysis& standing, double share = 0.6) : standing_(standing) {
+  explicit SteelUtilisations(const solver::Reanalysis& standing, double share = 0.6) : standing_(standing) {
     limit_.breakable = true;
     limit_.value = {3e6, 3e6, 6e5, 6e5, 5e4, 3e5, 1e5};
     const double used = largest();
     for (double& value : limit_.value) value *= used / share;
   }
 
-  double beam_use(int beam) override {
+  double beam_utilisation(int beam) override {
     const solver::Vec12 forces = standing_.beam_end_forces(beam);
     double use = 0;
     for (int end = 0; end < 2; ++end)
       use = std::max(use, structure::utilisation(limit_, structure::member_joint_demand(forces, end)).value);
     return use;
   }
-  double shell_use(int) override { return 0; }
+  double shell_utilisation(int) override { return 0; }
   double beam_growth(int, const double (&root)[12]) override {
     const solver::Vec12 most = Eigen::Map<const solver::Vec12>(root);
     double growth = 0;
@@ -39,7 +39,7 @@ class SteelUses : public solver::UseWatch {
   [[nodiscard]] double largest() {
     double worst = 0;
     for (int beam = 0; beam < static_cast<int>(standing_.model().beams.size()); ++beam)
-      worst = std::max(worst, beam_use(beam));
+      worst = std::max(worst, beam_utilisation(beam));
     return worst;
   }
 

@@ -13,7 +13,7 @@
 
 #include "standing_building.h"
 #include "support/measure.h"
-#include "support/steel_uses.h"
+#include "support/steel_utilisations.h"
 #include "topple/solver/blas_kernel.h"
 #include "topple/structure/formats/files.h"
 
@@ -106,7 +106,7 @@ std::vector<Way> Measurement::nothing_changes(int repeats) {
 
 std::vector<Way> Measurement::a_load_changes(int repeats) {
   const auto standing = stand(), part = stand();
-  SteelUses uses(*part);
+  SteelUtilisations uses(*part);
   (void)part->solve(uses);
   std::vector<StaticAnalysis> fresh;
   std::vector<Way> ways{{"standing"}, {"restricted"}};
@@ -145,7 +145,7 @@ std::vector<Way> Measurement::a_joint_breaks(int repeats) {
     if (standing_.building.members[b].kind == structure::MemberKind::beam) beams.push_back(static_cast<int>(b));
   }
   const auto standing = stand(), part = stand();
-  SteelUses uses(*part);
+  SteelUtilisations uses(*part);
   (void)part->solve(uses);
   std::vector<Way> ways{{"low rank"}, {"restricted"}, {"own"}};
   solver::FrameModel broken = standing_.frame.model;

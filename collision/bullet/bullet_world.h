@@ -1,8 +1,8 @@
 #pragma once
 // collision::World on Bullet. Its parts by file: bodies, obstacles and the step (bullet_world), contacts
 // (bullet_world_contacts), rest (bullet_world_rest), sweeps and rays (bullet_world_sweep), hinges
-// (bullet_world_hinges), cables (bullet_world_cables). It has more than forty functions: World has thirty, and the rest
-// is kept as it was when simulations ran on it, so that what is compared with stays the same.
+// (bullet_world_hinges), cables (bullet_world_cables). It has more than forty functions and twenty-five data: World has
+// thirty functions, and the rest stays as it was when simulations ran on it, to be compared with.
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>

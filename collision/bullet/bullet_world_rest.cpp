@@ -6,7 +6,7 @@
 // heaps load what stands. So a body is held only when it is in balance, by forces averaged over some steps, and rests
 // on what is held, too, or stands. It is let go when
 // - something comes upon it as an impact (faster than 2 g dt), before that is solved for, together with as much of the
-//   heap round it as the blow could move at a noticeable speed;
+//   heap round it as the impact could move at a noticeable speed;
 // - what presses on it changes by a good part of what it carries, or that times its size as a moment: what it rests on
 //   gives or goes, something comes to lie on it;
 // - it, or what it touches, is changed or taken away from outside.
@@ -36,7 +36,7 @@ struct RestSettings {
                                 ///< taken to rest, and when what presses on it changes by more it is let go
   double on_standing = 0.2;     ///< the same for what lies on something that stands, on others or straight
   double bearing = 0.25;        ///< of a body's weight: what presses it up with more bears it
-  double calm = 0.25;           ///< m/s: a blow lets go as much of the heap as its momentum would move faster than that
+  double calm = 0.25;  ///< m/s: an impact lets go as much of the heap as its momentum would move faster than that
 };
 constexpr RestSettings kRest;
 
@@ -125,7 +125,7 @@ void BulletWorld::let_go(Body& one) {
 namespace {
 
 /// The greatest momentum with which a manifold's bodies come upon each other as an impact within dt; 0: not at all.
-double blow(const btPersistentManifold& manifold, const Body& moving, const btVector3& gravity, double dt) {
+double impact_momentum(const btPersistentManifold& manifold, const Body& moving, const btVector3& gravity, double dt) {
   const double resting_speed = 2 * gravity.length() * dt;
   const double side = manifold.getBody0() == moving.object ? -1 : 1;  // normals are from the second to the first
   double fastest = 0;
@@ -143,7 +143,7 @@ double blow(const btPersistentManifold& manifold, const Body& moving, const btVe
 
 void BulletWorld::let_go_struck(double dt) {
   if (held_count_ == 0) return;
-  std::map<std::int64_t, double> blows;  // by the body that is struck, N s
+  std::map<std::int64_t, double> impacts;  // by the body that is struck, N s
   for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(i);
     if (manifold.getNumContacts() == 0) continue;
@@ -152,13 +152,13 @@ void BulletWorld::let_go_struck(double dt) {
     if (first.kind != Touched::Kind::body || second.kind != Touched::Kind::body) continue;
     const auto &a = static_cast<const Body&>(first), &b = static_cast<const Body&>(second);
     if (a.held_still == b.held_still || !(a.rigid->isActive() || b.rigid->isActive())) continue;
-    const double momentum = blow(manifold, a.held_still ? b : a, world_.getGravity(), dt);
+    const double momentum = impact_momentum(manifold, a.held_still ? b : a, world_.getGravity(), dt);
     if (momentum > 0) {
-      double& most = blows[(a.held_still ? a : b).id];
+      double& most = impacts[(a.held_still ? a : b).id];
       most = std::max(most, momentum);
     }
   }
-  if (blows.empty()) return;
+  if (impacts.empty()) return;
   std::vector<std::pair<std::int64_t, std::int64_t>> neighbours;
   for (const Contact& contact : touching_) {
     if (contact.other.kind != Touched::Kind::body) continue;
@@ -166,7 +166,7 @@ void BulletWorld::let_go_struck(double dt) {
     neighbours.emplace_back(contact.other.body.value, contact.body.value);
   }
   std::sort(neighbours.begin(), neighbours.end());
-  for (const auto& [struck, momentum] : blows) {
+  for (const auto& [struck, momentum] : impacts) {
     std::vector<std::int64_t> reached{struck};
     std::set<std::int64_t> known{struck};
     double moved = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// What bodies press on each other with, averaged over the solver's chatter, and how far that has come from what a body
-// that is held still was in balance with when it was taken to rest.
+// Forces between bodies, averaged over several steps of the solver, and how far they differ from those with which a
+// resting body was in balance when it was put to rest.
 #include <span>
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which parts a contact is between.
+// An order of contacts: by the parts that they are between.
 #include <tuple>
 
 #include "shapes/solid.h"

@@ -139,9 +139,9 @@ class NearPairs {
 template <class Call>
 void NearPairs::each_in(const Box3& box, bool standing, const Call& call) const {
   struct Collect : btDbvt::ICollide {
-    const Call& tell;
-    explicit Collect(const Call& c) : tell(c) {}
-    void Process(const btDbvtNode* leaf) override { tell(static_cast<std::uint32_t>(leaf->dataAsInt)); }
+    const Call& visit;
+    explicit Collect(const Call& c) : visit(c) {}
+    void Process(const btDbvtNode* leaf) override { visit(static_cast<std::uint32_t>(leaf->dataAsInt)); }
   } collect(call);
   const btDbvt& tree = standing ? standing_ : moving_;
   tree.collideTV(tree.m_root, btDbvtVolume::FromMM(to_bullet(box.low), to_bullet(box.high)), collect);

@@ -1,5 +1,5 @@
 #pragma once
-// How one body goes on.
+// The motion of one free body through a step, and its energy.
 #include "debris/debris_parts.h"
 
 namespace topple::collision {

@@ -1,5 +1,5 @@
 #pragma once
-// What awake bodies will touch within a step, as they go on now. Nothing here moves anything.
+// The sweep: first touches of awake bodies within a step, on the paths that they have now. It moves nothing.
 #include <vector>
 
 #include "debris/ignored_pairs.h"

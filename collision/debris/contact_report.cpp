@@ -127,12 +127,12 @@ void ContactReport::add(std::span<SolverContact> solved, double dt, std::span<co
 /// proportion to their sizes: velocities change within the step.
 void ContactReport::account_work(std::span<Island* const> islands, double dt) {
   for (const Island* island : islands)
-    for (DebrisBody* one : island->bodies) one->pushed = one->booked = 0;
+    for (DebrisBody* one : island->bodies) one->pushed = one->accounted = 0;
   const Vec3 half_kick = scene_.gravity * (dt / 2);
   const auto work = [&](DebrisBody& on, const Vec3& impulse, const Vec3& moment) {  // taken out
     const double taken =
         -impulse.dot((on.velocity_before + on.velocity) / 2 + half_kick) - moment.dot((on.spin_before + on.spin) / 2);
-    on.booked += taken;
+    on.accounted += taken;
     on.pushed += impulse.norm() + kLeastPush;
     return taken;
   };
@@ -158,7 +158,7 @@ void ContactReport::account_work(std::span<Island* const> islands, double dt) {
   }
   const auto share = [&](const DebrisBody& on, double size) {
     if (!(on.pushed > 0)) return 0.0;
-    return size / on.pushed * (on.energy_before - (energy(on, scene_.gravity, dt) - on.swung) - on.booked);
+    return size / on.pushed * (on.energy_before - (energy(on, scene_.gravity, dt) - on.swung) - on.accounted);
   };
   for (const SolverContact& solved : solved_.solver().contacts())
     for (const bool second : {false, true})

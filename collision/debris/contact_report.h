@@ -1,6 +1,6 @@
 #pragma once
-// What a step tells of contacts: where they touched, what they pushed with, and what work was lost in them. With those
-// of hinges and cables the account of what the step took out of its bodies is whole.
+// The contacts of a step as the world reports them: places, impulses, and the work that was lost. Together with hinges
+// and cables that is all the energy which the step took from the bodies.
 #include <span>
 #include <vector>
 

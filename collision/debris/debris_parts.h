@@ -32,7 +32,7 @@ struct DebrisBody : TouchingSolid {
   int island = 0;
   // Of the step: what it began with, for the account of energy.
   Vec3 velocity_before = Vec3::Zero(), spin_before = Vec3::Zero();
-  double energy_before = 0, pushed = 0, booked = 0;
+  double energy_before = 0, pushed = 0, accounted = 0;
   Vec3 acceleration = Vec3::Zero();  ///< of the last step, m/s2: what lies does not fall
   double swung = 0;  ///< J by which its free rotation missed its energy: comes back, and is no contact's
   std::vector<std::uint32_t> colliders;  ///< by part
@@ -50,7 +50,7 @@ struct DebrisObstacle : TouchingSolid {
   Vec3 impulse = Vec3::Zero(), angular_impulse = Vec3::Zero(), force = Vec3::Zero(), moment = Vec3::Zero();
   double gives_way = 1;  ///< its mobility, as a share of that which it has by itself
   double alike = 0;      ///< share of the force of the last part that was there in the one before
-  double lasting = 0;    ///< share of it that goes on: the rest is part of a blow
+  double lasting = 0;    ///< share of it that goes on: the rest is part of an impact
   int known_for = 0;     ///< parts of a step, at most three
   int solver = -1;       ///< its number in the step's solver; -1: not in it yet
   int island = -1;

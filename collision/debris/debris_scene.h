@@ -1,6 +1,6 @@
 #pragma once
 // What there is in a world of debris: bodies, obstacles, hinges, cables, the ground, and the pairs of them that are
-// near each other. Who is awake is kept here; everything else is changed by those who work on it.
+// near each other. Who is awake is kept here; everything else is changed by the parts that work on it.
 #include <map>
 #include <memory>
 #include <vector>

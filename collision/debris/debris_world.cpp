@@ -26,7 +26,7 @@ void check_surface(double friction, double restitution, const std::string& owner
 }
 
 /// Place of a part in the order of contacts: bodies by id before obstacles by id, parts in order of their description.
-std::uint64_t place_in_order(Touched::Kind kind, std::int64_t id, std::size_t part) {
+std::uint64_t order_of(Touched::Kind kind, std::int64_t id, std::size_t part) {
   constexpr std::uint64_t obstacles = std::uint64_t{1} << 62;
   return (kind == Touched::Kind::obstacle ? obstacles : 0) | static_cast<std::uint64_t>(id) << 20 | part;
 }
@@ -35,7 +35,7 @@ double ball_radius(const std::vector<ConvexPart>& parts) {
   return parts.size() == 1 && parts[0].kind == ConvexPart::Kind::sphere ? parts[0].half_extents.x() : 0;
 }
 
-void place(DebrisBody& placed, const Pose& pose) {
+void set_pose(DebrisBody& placed, const Pose& pose) {
   placed.turn = pose.orientation.normalized();
   if (placed.turned) placed.turn = placed.turn * from_bullet(placed.frame.getRotation());
   placed.at = {pose.position, placed.turn.toRotationMatrix()};
@@ -114,9 +114,9 @@ BodyId DebrisWorld::add_body(const BodyDescription& description) {
   made->friction = description.friction;
   made->restitution = description.restitution;
   made->ball_radius = ball_radius(description.parts);
-  place(*made, description.pose);
+  set_pose(*made, description.pose);
   for (std::size_t i = 0; i < made->parts.size(); ++i)
-    made->colliders.push_back(scene_.pairs.add(made.get(), static_cast<int>(i), place_in_order(made->kind, id.value, i),
+    made->colliders.push_back(scene_.pairs.add(made.get(), static_cast<int>(i), order_of(made->kind, id.value, i),
                                                DebrisScene::bounds_of(made->shapes[i], made->at)));
   scene_.bodies.push_back(std::move(made));
   scene_.order.push_back(id);
@@ -152,7 +152,7 @@ ObstacleId DebrisWorld::add_obstacle(const ObstacleDescription& description) {
   made->friction = description.friction;
   made->restitution = description.restitution;
   for (std::size_t i = 0; i < made->parts.size(); ++i)
-    made->colliders.push_back(scene_.pairs.add(made.get(), static_cast<int>(i), place_in_order(made->kind, made->id, i),
+    made->colliders.push_back(scene_.pairs.add(made.get(), static_cast<int>(i), order_of(made->kind, made->id, i),
                                                DebrisScene::bounds_of(made->shapes[i], made->at)));
   scene_.obstacles.emplace(next_obstacle_, std::move(made));
   return {next_obstacle_++};
@@ -199,7 +199,7 @@ void DebrisWorld::set_state(BodyId id, const BodyState& state) {
   if (!state.pose.position.allFinite() || !state.velocity.allFinite() || !state.angular_velocity.allFinite()) {
     throw std::invalid_argument("body " + std::to_string(id.value) + ": its state is not finite");
   }
-  place(set, state.pose);
+  set_pose(set, state.pose);
   set.acceleration = scene_.gravity;
   for (std::size_t i = 0; i < set.parts.size(); ++i)
     scene_.pairs.move(set.colliders[i], DebrisScene::bounds_of(set.shapes[i], set.at), scene_.settings.fat);

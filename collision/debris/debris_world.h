@@ -1,9 +1,9 @@
 #pragma once
-// collision::World with a contact solver of its own: a facade over the scene (DebrisScene) and those who work on it, in
-// the order of a step: what stands and moves (MovingObstacles), what touches (PairSearch), what is woken (Waking) or
-// falls asleep (DebrisRest), islands in the solver (SolvedIslands), what is told of contacts (ContactReport); and over
-// first touches to come (body_sweep.h) and rays (scene_queries.h). It has more than forty functions, as World has
-// thirty; each of those is a few lines.
+// collision::World with a contact solver of its own: a facade over the scene (DebrisScene) and the parts that work on
+// it, in the order of a step: what stands and moves (MovingObstacles), what touches (PairSearch), what is woken
+// (Waking) or falls asleep (DebrisRest), islands in the solver (SolvedIslands), what is reported of contacts
+// (ContactReport); and over first touches to come (body_sweep.h) and rays (scene_queries.h). It has more than forty
+// functions, as World has thirty; each of those is a few lines.
 #include <memory>
 #include <optional>
 #include <utility>
@@ -65,7 +65,7 @@ class DebrisWorld final : public World {
   void move_on(double dt);
   void solve(std::span<Island* const> islands, int substeps, double dt);
   void update_moving(double dt, MovingStructure& structure);
-  void hand_over(double dt, std::size_t told, MovingStructure& structure);
+  void advance_structure(double dt, std::size_t told, MovingStructure& structure);
   void remove_contacts_of(Touched::Kind kind, std::int64_t id);
   void wake_hung_at(const DebrisObstacle& holder);
   void let_go_of(const DebrisObstacle& holder);

@@ -18,7 +18,7 @@ int substeps(const Island& island, const SolverSettings& settings, double dt) {
   const double steps = dt / reference;
   const double for_load =
       settings.substeps_for_weight * std::pow(std::max(1.0, island.load / weight), settings.substeps_growth);
-  // A stack that lands goes on into itself until the blow has come through all of it, one contact each pass.
+  // A stack that lands goes on into itself until the impact has come through all of it, one contact each pass.
   double mass = 0, energy = 0;
   for (const DebrisBody* one : island.bodies) {
     mass += one->mass;
@@ -87,7 +87,7 @@ void DebrisWorld::advance(double dt, int parts, MovingStructure* structure) {
       }
       if (scene_.awake_count > 0) move_on(dt / parts_);
     }
-    if (structure) hand_over(part_time, told, *structure);
+    if (structure) advance_structure(part_time, told, *structure);
   }
   read_velocities_by(Vec3::Zero());
   rest_.end_step(dt);
@@ -101,10 +101,10 @@ void DebrisWorld::update_moving(double dt, MovingStructure& structure) {
 }
 
 /// To the structure, what touched it since contact number `told`; it goes on.
-void DebrisWorld::hand_over(double dt, std::size_t told, MovingStructure& structure) {
+void DebrisWorld::advance_structure(double dt, std::size_t told, MovingStructure& structure) {
   const std::vector<Contact> own(report_.all().begin() + static_cast<std::ptrdiff_t>(told), report_.all().end());
   stepping_ = true;
-  structure.advance(dt, own, moving_.take_pulls());
+  structure.advance(dt, own, moving_.extract_pulls());
   stepping_ = false;
 }
 

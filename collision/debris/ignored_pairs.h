@@ -1,5 +1,5 @@
 #pragma once
-// Pairs of which nobody is told until they have come apart (World::ignore_until_separated).
+// Pairs whose contacts are not reported until they have come apart (World::ignore_until_separated).
 #include <map>
 
 #include "contacts/contact_forces.h"

@@ -77,7 +77,7 @@ void MovingObstacles::estimate_compliance(DebrisObstacle& one, const ObstacleMot
   const Vec3 more = force - one.force, more_moment = moment - one.moment;
   const double own = product(more, more_moment, more, more_moment);
   const double alike = present > own ? 1 - std::sqrt(own / present) : 0;
-  one.lasting = std::min(alike, std::exchange(one.alike, alike));  // a blow takes two parts
+  one.lasting = std::min(alike, std::exchange(one.alike, alike));  // an impact takes two parts
   if (one.known_for < 3) return;  // by how much its acceleration changed is not known yet
   if (!(own > scene_.settings.telling_change * std::max(before, present))) return;
   const double shown = more.dot(now.acceleration - one.motion.acceleration) +
@@ -155,7 +155,7 @@ void MovingObstacles::read_motion(const StepSolver& solver, std::span<Island* co
   }
 }
 
-std::vector<HingePull> MovingObstacles::take_pulls() {
+std::vector<HingePull> MovingObstacles::extract_pulls() {
   std::vector<HingePull> pulls;
   for (auto& [id, hinge] : scene_.hinges) {
     if (!std::exchange(hinge->pulled, false)) continue;

@@ -32,7 +32,7 @@ class MovingObstacles {
   void read_motion(const StepSolver& solver, std::span<Island* const> islands, double dt);
   void wake_carried();
   /// What hinges did to them since they were told last.
-  [[nodiscard]] std::vector<HingePull> take_pulls();
+  [[nodiscard]] std::vector<HingePull> extract_pulls();
 
  private:
   void update(DebrisObstacle& obstacle, const ObstacleMotion& motion, double dt);

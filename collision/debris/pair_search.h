@@ -1,5 +1,5 @@
 #pragma once
-// What touches, or may within a step: bounds of what is awake, and contacts of pairs that are near.
+// Collision detection of a step: bounds of awake bodies, near pairs, and their contacts.
 #include <cstdint>
 #include <vector>
 

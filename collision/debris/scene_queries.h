@@ -1,5 +1,5 @@
 #pragma once
-// Rays, and which obstacles are where.
+// Queries of a debris scene: rays, and the obstacles within a box.
 #include <optional>
 #include <vector>
 

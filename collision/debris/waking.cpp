@@ -7,7 +7,7 @@
 
 namespace topple::collision {
 
-/// A body that an awake one comes upon, before the step is solved: as a free body it takes the blow.
+/// A body that an awake one comes upon, before the step is solved: as a free body it takes the impact.
 void Waking::wake_struck(double dt) {
   if (scene_.all_awake()) return;
   bool again = true;
@@ -47,7 +47,7 @@ void Waking::wake_struck(double dt) {
   }
 }
 
-/// As much of the heap as the blow's momentum would move at a noticeable speed.
+/// As much of the heap as the impact's momentum would move at a noticeable speed.
 void Waking::wake_round(DebrisBody& struck, double momentum) {
   std::vector<DebrisBody*> reached{&struck};
   double moved = 0;
@@ -67,7 +67,7 @@ void Waking::wake_round(DebrisBody& struck, double momentum) {
 }
 
 /// What a body that sleeps is pressed with has changed: it may not rest any more. Forces are averaged over a time, so
-/// that a blow counts by the speed that it would give and not by the length of the step.
+/// that an impact counts by the speed that it would give and not by the length of the step.
 void Waking::wake_changed(std::span<const Push> pushes, double dt) {
   if (scene_.all_awake()) return;
   const double weight = scene_.gravity.norm(), share = 1 - std::exp(-dt / scene_.settings.pressed_over);

@@ -1,5 +1,5 @@
 #pragma once
-// What sleeps and is woken: by what comes upon it, and by a change of what presses on it.
+// Waking of sleeping bodies: an awake body reaches them, or the force that presses on them changes.
 #include <span>
 
 #include "debris/pair_search.h"
@@ -11,8 +11,8 @@ class Waking {
  public:
   Waking(DebrisScene& scene, PairSearch& search) : scene_(scene), search_(search) {}
 
-  /// What an awake body comes upon within `dt`, before the step is solved: as a free body it takes the blow. What that
-  /// brings together is sought.
+  /// What an awake body comes upon within `dt`, before the step is solved: as a free body it takes the impact. What
+  /// that brings together is sought.
   void wake_struck(double dt);
   /// What a pair did in the last part of a step.
   struct Push {

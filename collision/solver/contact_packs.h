@@ -61,7 +61,7 @@ struct alignas(32) ContactPack {
       slide_carried[2];  ///< sums of what had been applied whenever bodies were moved: along the normal, across
 };
 
-/// Passes that are repeated in a sub-step, as long as a blow goes on through a stack: each goes on the way of those
+/// Passes that are repeated in a sub-step, as long as an impact goes on through a stack: each goes on the way of those
 /// before it, by the rule of Fletcher and Reeves (Silcowitz, Niebe and Erleben, Vis. Comput. 26, 2010).
 struct Again {
   double settled = 0;      ///< m/s: a pass that changes no point's speed by more is the last

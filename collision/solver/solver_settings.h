@@ -24,7 +24,7 @@ struct SolverSettings {
   int moving_passes =
       2;  ///< at least one, of a sub-step in which overlaps are pushed apart: stacks of ten rest within 0.3 mm
   double settled = 0.3;   ///< m/s: passes are repeated in a sub-step that changes a contact's speed by more
-  int most_passes = 100;  ///< in a sub-step: a blow through a stack of that many comes through
+  int most_passes = 100;  ///< in a sub-step: an impact through a stack of that many comes through
 
   int contacts_of_domain = 256;  ///< a heap with twice as many is cut into domains that threads can take, so that four
                                  ///< contacts fill each pack; passes go through it in another order then
@@ -63,8 +63,8 @@ struct SolverSettings {
   double carries_from = 0.01;
   double wakes_from = 0.1;  ///< of its weight: what sleeps wakes when a force on it changes by more ...
   double pressed_over =
-      0.1;                  ///< s: ... averaged over this: a blow wakes from a speed of 0.1 m/s, as `struck_from` does
-  double touching = 0.001;  ///< m: points that are nearer bear at rest
+      0.1;  ///< s: ... averaged over this: an impact wakes from a speed of 0.1 m/s, as `struck_from` does
+  double touching = 0.001;    ///< m: points that are nearer bear at rest
   double equilibrium = 1e-6;  ///< of a body's weight (moments: times its size): what sleeps is out of balance by less
   int equilibrium_passes = 6000;  ///< over the contacts in the search for that balance, at most
   int rest_searches = 6;   ///< for a balance of an island, each without the bodies that no forces held in the last ...

@@ -126,7 +126,7 @@ double StepSolver::energy_of_changes() {
   return std::accumulate(colour_energies_.begin(), colour_energies_.end(), 0.0);
 }
 
-/// One pass over the contacts serves what rests or goes on evenly: impulses of the sub-step before are near. A blow
+/// One pass over the contacts serves what rests or goes on evenly: impulses of the sub-step before are near. An impact
 /// comes through one contact in a pass; as long as it is on its way passes are repeated.
 void StepSolver::stop_closing(SubStep step) {
   const ContactKernels& kernels = contact_kernels();

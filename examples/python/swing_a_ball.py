@@ -36,7 +36,7 @@ def main(picture: str = "") -> topple.Simulation:
     standing = int((run.member_bodies == -1).sum())
     print(f"{run.time:.1f} s: {standing} of {len(run.model.member_names)} members stand, {len(run.poses)} bodies")
     ledger = run.ledger
-    print(f"gravity did {ledger['gravity_work'] / 1e3:.0f} kJ; the books are out by {100 * ledger['residual']:.3f} %")
+    print(f"gravity did {ledger['gravity_work'] / 1e3:.0f} kJ; energy is out of balance by {100 * ledger['residual']:.3f} %")
     if picture:
         axes = run.plot()
         axes.figure.savefig(picture, dpi=120)

@@ -101,15 +101,15 @@ void AssemblyMap::each_entry(std::size_t element, const std::vector<char>& wante
   std::array<char, most_kept> kept{};
   const auto look_up = [&](std::size_t i) { return numbers[i] < dofs_.equations && is_wanted(numbers[i], wanted); };
   for (std::size_t i = 0; !wanted.empty() && i < std::min(n, most_kept); ++i) kept[i] = look_up(i) ? 1 : 0;
-  const auto wants = [&](std::size_t i) { return i < most_kept ? kept[i] != 0 : look_up(i); };
+  const auto is_needed = [&](std::size_t i) { return i < most_kept ? kept[i] != 0 : look_up(i); };
   // Freedoms of a node follow each other: a neighbour is looked up once for all of them.
   int last_v = -1, last_w = -1;
   std::int32_t offset = 0;
   for (std::size_t j = 0; j < n; ++j) {
     if (numbers[j] >= dofs_.equations) continue;
-    const bool all = wanted.empty() || wants(j);
+    const bool all = wanted.empty() || is_needed(j);
     for (std::size_t i = j; i < n; ++i) {
-      if (numbers[i] >= dofs_.equations || !(all || wants(i))) continue;
+      if (numbers[i] >= dofs_.equations || !(all || is_needed(i))) continue;
       const int column = std::min(numbers[i], numbers[j]), row = std::max(numbers[i], numbers[j]);
       const int v = dofs_.vertex_of_equation[static_cast<std::size_t>(column)];
       const int w = dofs_.vertex_of_equation[static_cast<std::size_t>(row)];

@@ -84,7 +84,7 @@ class FrameElements {
   /// Takes a model of the same elements and the same numbering in the place of its own; all of it stands, and the
   /// stiffness of each shell is kept as long as its numbers are the same. False for any other, which is left as it was
   /// given.
-  [[nodiscard]] bool take_model(FrameModel& given);
+  [[nodiscard]] bool replace_model(FrameModel& given);
 
  private:
   /// K of a beam in the local freedoms of its nodes.

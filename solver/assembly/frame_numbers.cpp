@@ -57,7 +57,7 @@ bool same_numbering(const DofMap& some, const DofMap& others) {
 
 }  // namespace
 
-bool FrameElements::take_model(FrameModel& given) {
+bool FrameElements::replace_model(FrameModel& given) {
   if (!same_elements(model, given)) return false;
   given = checked_model(std::move(given));
   DofMap dofs(given);
@@ -72,8 +72,8 @@ bool FrameElements::take_model(FrameModel& given) {
   return true;
 }
 
-bool FrameSystem::take_numbers(FrameModel& given) {
-  if (!take_model(given)) return false;
+bool FrameSystem::replace_numbers(FrameModel& given) {
+  if (!replace_model(given)) return false;
   support_ = support_stiffness(model);
   return true;
 }

@@ -43,7 +43,7 @@ class FrameSystem : public FrameElements {
   /// the place of its own: numbering and pattern stay; what comes next is assemble(). False for any other model, which
   /// is left as it was given. Throws std::invalid_argument as the constructor does. From then on the stiffness of each
   /// shell is kept as long as its numbers are the same.
-  [[nodiscard]] bool take_numbers(FrameModel& given);
+  [[nodiscard]] bool replace_numbers(FrameModel& given);
 
   // After a change of what stands call reassemble() with the nodes that it touched; a support may only change between
   // springs. Inertia is to be set before assemble().

@@ -60,7 +60,7 @@ struct SecondOrderAnalysis::State {
     result.solution = first_order;  // the axial forces to begin with
     double before = 1;
     for (result.iterations = 1; result.iterations <= most_iterations; ++result.iterations) {
-      const double change = take_axial_forces(result.solution);
+      const double change = update_axial_forces(result.solution);
       const bool no_closer = change <= settled_to_rounding && change >= before;
       before = change;
       if (result.iterations > 1 && (change <= settled || no_closer)) {
@@ -80,7 +80,7 @@ struct SecondOrderAnalysis::State {
 
  private:
   /// Returns the largest change over the largest force.
-  double take_axial_forces(const StaticSolution& solution) {
+  double update_axial_forces(const StaticSolution& solution) {
     double change = 0, largest = 0;
     for (std::size_t i = 0; i < axial_.first_axial.size(); ++i) {
       const double tension = -solution.beam_end_forces[i](0);
@@ -89,11 +89,11 @@ struct SecondOrderAnalysis::State {
       axial_.first_axial[i] = tension;
     }
     const double relative = largest > 0 ? change / largest : 0;
-    return system_.model.shells.empty() ? relative : std::max(relative, take_displacements(solution));
+    return system_.model.shells.empty() ? relative : std::max(relative, update_displacements(solution));
   }
 
   /// Membrane forces follow from displacements: returns their largest change over the largest translation.
-  double take_displacements(const StaticSolution& solution) {
+  double update_displacements(const StaticSolution& solution) {
     double change = 0, largest = 0;
     std::vector<Vec6>& known = axial_.shell_displacements;
     known.resize(solution.displacements.size(), Vec6::Zero());

@@ -164,7 +164,7 @@ bool prepare_again(Prepared& prepared, FrameModel& model, const AnalysisOptions&
   prepared.options = options;
   {
     const Stopwatch watch(statistics.assemble_seconds);
-    if (!prepared.system.take_numbers(model)) return false;
+    if (!prepared.system.replace_numbers(model)) return false;
   }
   prepared.assemble();
   require_none(prepared.system.defect());
@@ -331,7 +331,7 @@ struct KeptEquations::State {
   std::unique_ptr<Prepared> prepared;
 
   /// True where what is kept serves.
-  bool take(FrameModel model, const AnalysisOptions& options) {
+  bool prepare_for(FrameModel model, const AnalysisOptions& options) {
     if (prepared && prepare_again(*prepared, model, options)) return true;
     prepared.reset();
     prepared = prepare(std::move(model), options);
@@ -344,7 +344,7 @@ KeptEquations::~KeptEquations() = default;
 
 std::vector<StaticSolution> KeptEquations::solve(FrameModel model, std::span<const LoadSet> loads,
                                                  const AnalysisOptions& options, AnalysisStatistics& statistics) {
-  reused_ += state_->take(std::move(model), options) ? 1 : 0;
+  reused_ += state_->prepare_for(std::move(model), options) ? 1 : 0;
   std::vector<StaticSolution> solutions = solve_each(*state_->prepared, loads);
   statistics = state_->prepared->statistics;
   return solutions;
@@ -353,7 +353,7 @@ std::vector<StaticSolution> KeptEquations::solve(FrameModel model, std::span<con
 CaseSums KeptEquations::solve_case_sums(FrameModel model, std::span<const LoadSet> cases,
                                         const Eigen::MatrixXd& factors, const AnalysisOptions& options) {
   require_factors(cases, factors);
-  reused_ += state_->take(std::move(model), options) ? 1 : 0;
+  reused_ += state_->prepare_for(std::move(model), options) ? 1 : 0;
   return sums_with(*state_->prepared, cases, factors);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Parts without mass on nothing that holds them: nothing can say how they move, so they are left out.
+// Nodes with neither stiffness nor mass. Their motion is undetermined, so their equations are left out.
 #include <vector>
 
 #include "assembly/element_masses.h"

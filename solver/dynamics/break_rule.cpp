@@ -14,7 +14,7 @@ constexpr int halvings = 30;
 /// The share of the substep at which the joint first reaches its capacity, by the cubic course of its force; its end
 /// where that alone is beyond.
 double reached_at(const JointLaw& law, int beam, int end, const SubstepCourse<Vec12>& course) {
-  const auto over = [&](double share) { return law.end_use(beam, end, course.at(share)) > 1; };
+  const auto over = [&](double share) { return law.end_utilisation(beam, end, course.at(share)) > 1; };
   if (over(0)) return 0;
   double low = 0, high = 1;
   for (int k = 1; k <= looks; ++k) {
@@ -114,12 +114,12 @@ bool FrameDynamics::State::break_joints(const JointLaw& law) {
     const auto i = static_cast<std::size_t>(beam);
     if (system().beam_stands[i] == 0) continue;
     const Vec12 forces = end_forces(beam, true);
-    if (!(law.beam_use(beam, forces) > 1)) continue;
+    if (!(law.beam_utilisation(beam, forces) > 1)) continue;
     evaluate_nodes();
     const SubstepCourse<Vec12> own = course(beam);
     for (int end = 0; end < 2; ++end) {
       if (system().model.beams[i].end_stiffness[static_cast<std::size_t>(end)].isZero(0)) continue;
-      if (!(law.end_use(beam, end, forces) > 1)) continue;
+      if (!(law.end_utilisation(beam, end, forces) > 1)) continue;
       const double share = reached_at(law, beam, end, own);
       crossings.push_back({{beam, end, time + share * method.h, own.at(share)}, share, own});
     }

@@ -79,7 +79,7 @@ struct FrameDynamics::State {
   void advance_first_order(const JointLaw* law);
   void find_end();
   void accept();
-  void book();
+  void account_energy();
   double stored_energy();
   void evaluate_nodes();
   void evaluate_end();

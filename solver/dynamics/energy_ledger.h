@@ -10,7 +10,7 @@ namespace topple::solver {
 
 class EnergyLedger {
  public:
-  /// For those who book what happens outside of a substep, or in hinges.
+  /// For energies outside of a substep, or in hinges.
   [[nodiscard]] DynamicEnergy& terms() { return energy_; }
   [[nodiscard]] const DynamicEnergy& terms() const { return energy_; }
 
@@ -40,7 +40,7 @@ class EnergyLedger {
   SideBySide<2> matrix_products_;  ///< (K + s M) u, (K + s M) v
   bool known_ = false;
   double s_ = 0;                ///< of these products
-  SideBySide<2> old_products_;  ///< M a and K u at the start of the substep that was booked last
+  SideBySide<2> old_products_;  ///< M a and K u at the start of the substep that was accounted last
   Eigen::VectorXd moved_;       ///< in it
   // Scratch.
   SideBySide<4> motion_columns_;

@@ -41,7 +41,7 @@ void FrameDynamics::State::advance_second_order(const JointLaw* law) {
   for (int pass = 0; pass < most_passes; ++pass) {
     advance_first_order(law);
     evaluate_end();
-    const SettlingLoad::Pass done = geometric.take(find_geometric_load(nodes.end().u, true));
+    const SettlingLoad::Pass done = geometric.iterate(find_geometric_load(nodes.end().u, true));
     if (done == SettlingLoad::Pass::settled) return;
     if (done == SettlingLoad::Pass::lost) break;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The motion by nodes at both ends of the substep under way, or of the last one, worked out as far as it is asked for.
+// The motion by nodes at both ends of the substep under way, or of the last one, computed as far as it is needed.
 #include "assembly/frame_system.h"
 #include "dynamics/motion_state.h"
 

@@ -112,7 +112,7 @@ void FrameDynamics::State::yield(std::span<const PlasticHinge> hinges) {
     for (Eigen::Index j = 0; j <= n; ++j)
       A(n, j) = A(j, n) = kinks.resistance(k, turning[static_cast<std::size_t>(j)].kink, method);
     // Nothing holds it but the inertia that a beam on one end does not have: it is over, see turned_out_at().
-    if (A(n, n) > resistless * -kinks[k].fixed_end(kinks[k].place()) && A(n, n) > 0) return;
+    if (A(n, n) > resistless * -kinks[k].fixed_end(kinks[k].component_index()) && A(n, n) > 0) return;
     A.row(n).setZero();
     A.col(n).setZero();
   };
@@ -139,7 +139,7 @@ std::optional<double> FrameDynamics::State::turned_out_at(const PlasticHinge& hi
   if (!yields(system(), hinge)) return std::nullopt;
   const Kink& kink =
       kinks[kinks.number(system().model, hinge.beam, static_cast<std::size_t>(hinge.end), hinge.component)];
-  const auto moment = [&](bool at_end) { return std::abs(end_forces(hinge.beam, at_end)(kink.place())); };
+  const auto moment = [&](bool at_end) { return std::abs(end_forces(hinge.beam, at_end)(kink.component_index())); };
   constexpr double rounding = 1e4 * beyond;
   const bool over = moment(true) > (1 + rounding) * hinge.capacity;
   if (!over && !(std::abs(kink.now) > hinge.largest_turn)) return std::nullopt;

@@ -25,7 +25,7 @@ std::size_t PlasticKinks::number(const FrameModel& model, int beam, std::size_t 
 Vec12 PlasticKinks::rotations(std::size_t beam) const {
   Vec12 rotations = Vec12::Zero();
   if (of_beam_.empty()) return rotations;
-  for (const std::size_t k : of_beam_[beam]) rotations(kinks_[k].place()) = kinks_[k].current;
+  for (const std::size_t k : of_beam_[beam]) rotations(kinks_[k].component_index()) = kinks_[k].current;
   return rotations;
 }
 
@@ -92,7 +92,7 @@ bool PlasticKinks::accept() {
 double PlasticKinks::resistance(std::size_t of, std::size_t by, const GeneralizedAlpha& method) const {
   const Kink &falls = kinks_[of], &turns = kinks_[by];
   double value = -method.h * method.h * method.beta / method.c * falls.force.dot(turns.response);
-  if (falls.beam == turns.beam) value -= turns.fixed_end(falls.place());
+  if (falls.beam == turns.beam) value -= turns.fixed_end(falls.component_index());
   return value;
 }
 
@@ -128,21 +128,21 @@ double PlasticKinks::elastic(const Eigen::VectorXd& u) const {
     if (kink.current == 0) continue;
     sum -= kink.current * kink.force.dot(u);
     for (const std::size_t other : of_beam_[static_cast<std::size_t>(kink.beam)])
-      sum -= 0.5 * kink.current * kinks_[other].current * kinks_[other].fixed_end(kink.place());
+      sum -= 0.5 * kink.current * kinks_[other].current * kinks_[other].fixed_end(kink.component_index());
   }
   return sum;
 }
 
 void PlasticKinks::add_work(const LoadsOfBeam& loads, double& work) const {
   for (const Kink& kink : kinks_)
-    work += loads(static_cast<std::size_t>(kink.beam))(kink.place()) * (kink.current - kink.started_at);
+    work += loads(static_cast<std::size_t>(kink.beam))(kink.component_index()) * (kink.current - kink.started_at);
 }
 
 /// With g = G'u the equation's kinks do theta_c'dg along it, theta_c = af theta0 + (1 - af) theta1, and d(theta'g) =
 /// theta_c'dg + dtheta'((1 - af) g0 + af g1): what is left beside the change of elastic energy is what the hinges took,
 /// but for the error of the method. Of the work of loads on a beam its kinks have a part.
-void PlasticKinks::book(const Eigen::VectorXd& u_start, const Eigen::VectorXd& u_end, const GeneralizedAlpha& method,
-                        double stiffness_damping, const LoadsOfBeam& loads, DynamicEnergy& energy) const {
+void PlasticKinks::account(const Eigen::VectorXd& u_start, const Eigen::VectorXd& u_end, const GeneralizedAlpha& method,
+                           double stiffness_damping, const LoadsOfBeam& loads, DynamicEnergy& energy) const {
   double discrete = 0, damped = 0;
   for (const Kink& kink : kinks_) {
     const double turn = kink.now - kink.before;
@@ -151,13 +151,13 @@ void PlasticKinks::book(const Eigen::VectorXd& u_start, const Eigen::VectorXd& u
     const double in_equation = method.af * kink.before + (1 - method.af) * kink.now;
     energy.external_work -= in_equation * (at_end - at_start);  // has it among the loads
     for (const std::size_t other : of_beam_[static_cast<std::size_t>(kink.beam)]) {
-      const double against = -kinks_[other].fixed_end(kink.place());
+      const double against = -kinks_[other].fixed_end(kink.component_index());
       discrete -= 0.5 * against * (kink.now * kinks_[other].now - kink.before * kinks_[other].before);
     }
     if (turn == 0) continue;
     discrete += turn * ((1 - method.af) * at_start + method.af * at_end);
     damped += stiffness_damping / method.h * turn * (at_end - at_start);
-    const double of_loads = loads(static_cast<std::size_t>(kink.beam))(kink.place()) * turn;
+    const double of_loads = loads(static_cast<std::size_t>(kink.beam))(kink.component_index()) * turn;
     energy.dissipated += kink.held * turn;
     energy.external_work += of_loads;
     energy.numerical -= kink.held * turn - of_loads;

@@ -25,7 +25,7 @@ struct Kink {
   Vec12 fixed_end = Vec12::Zero();    ///< of its beam, local, for 1 rad
   Eigen::SparseVector<double> force;  ///< of its beam on the nodes, scaled, for 1 rad
   Eigen::VectorXd response;           ///< of w in a substep to 1 rad more at its end; empty: to be found
-  [[nodiscard]] Eigen::Index place() const { return static_cast<Eigen::Index>(6 * end) + component; }
+  [[nodiscard]] Eigen::Index component_index() const { return static_cast<Eigen::Index>(6 * end) + component; }
 };
 
 class PlasticKinks {
@@ -75,8 +75,8 @@ class PlasticKinks {
   /// Adds what loads on the beams did along them since the motion began.
   void add_work(const LoadsOfBeam& loads, double& work) const;
   /// Of the substep under way, before it is accepted.
-  void book(const Eigen::VectorXd& u_start, const Eigen::VectorXd& u_end, const GeneralizedAlpha& method,
-            double stiffness_damping, const LoadsOfBeam& loads, DynamicEnergy& energy) const;
+  void account(const Eigen::VectorXd& u_start, const Eigen::VectorXd& u_end, const GeneralizedAlpha& method,
+               double stiffness_damping, const LoadsOfBeam& loads, DynamicEnergy& energy) const;
 
  private:
   std::vector<Kink> kinks_;

@@ -15,7 +15,7 @@ void SettlingLoad::begin(Eigen::VectorXd at_start) {
   end_ = start_;
 }
 
-SettlingLoad::Pass SettlingLoad::take(Eigen::VectorXd at_end) {
+SettlingLoad::Pass SettlingLoad::iterate(Eigen::VectorXd at_end) {
   if (!at_end.allFinite()) return Pass::lost;
   const double change = (at_end - end_).lpNorm<Eigen::Infinity>();
   const double size = at_end.lpNorm<Eigen::Infinity>();

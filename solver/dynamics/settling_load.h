@@ -1,5 +1,5 @@
 #pragma once
-// A load over a substep that follows from the motion at the substep's end, which follows from it: found pass by pass.
+// A load over a substep that depends on the motion at the substep's end: found by fixed-point iteration.
 #include <Eigen/Core>
 
 namespace topple::solver {
@@ -11,7 +11,7 @@ class SettlingLoad {
   enum class Pass { settled, open, lost };
   /// What follows from the motion that the load at the end made. Settled: so little else that it stays as it was. Lost:
   /// nothing that could be used.
-  [[nodiscard]] Pass take(Eigen::VectorXd at_end);
+  [[nodiscard]] Pass iterate(Eigen::VectorXd at_end);
   /// Over all of the substep as at its start.
   void give_up() { end_ = start_; }
   /// Adds it at the share `start` of the start of the substep and the rest of its end.

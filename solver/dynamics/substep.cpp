@@ -44,17 +44,17 @@ double FrameDynamics::State::stored_energy() {
 }
 
 /// What the forces of the substep have done, along its displacement.
-void FrameDynamics::State::book() {
+void FrameDynamics::State::account_energy() {
   kinks.add_turned(of_new_turn(), collocated_load);
   ledger.book_loads(before, now, collocated_load, substep_load);
-  kinks.book(
+  kinks.account(
       before.u, now.u, method, options.damping.stiffness,
       [this](std::size_t beam) { return fixed_end_of_loads(beam, true); }, ledger.terms());
   ledger.book_start(method, options.damping);
 }
 
 void FrameDynamics::State::accept() {
-  if (options.keep_energy) book();
+  if (options.keep_energy) account_energy();
   std::swap(before, now);
   if (kinks.accept()) ++counters.yielding;
   accepted = true;

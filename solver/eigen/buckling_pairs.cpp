@@ -220,13 +220,14 @@ class Search {
         open.push_back(k);
       }
       if (open.empty()) return true;
-      if (!take(residuals, open, moves)) return false;
+      if (!correct(residuals, open, moves)) return false;
     }
     return false;
   }
 
   /// What the residuals say: pairs that are found, and a wider subspace for the others.
-  bool take(const Eigen::MatrixXd& residuals, const std::vector<std::size_t>& open, const std::vector<double>& moves) {
+  bool correct(const Eigen::MatrixXd& residuals, const std::vector<std::size_t>& open,
+               const std::vector<double>& moves) {
     Eigen::MatrixXd corrections = residuals;
     operators_.solve(corrections);
     for (std::size_t i = 0; i < open.size(); ++i) {

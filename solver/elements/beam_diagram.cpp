@@ -110,8 +110,8 @@ struct BeamDiagram::State {
   Vec12 end_forces;
   InternalForces forces;
   std::vector<DeformedPiece> deformed;
-  Vec6 tip = Vec6::Zero();     ///< displacement of the second end when the first stays
-  Vec12 slip = Vec12::Zero();  ///< of the rigid ends against the beam's own ends
+  Vec6 tip = Vec6::Zero();           ///< displacement of the second end when the first stays
+  Vec12 end_offset = Vec12::Zero();  ///< of the rigid ends against the beam's own ends
 
   [[nodiscard]] std::size_t piece_at(double distance, bool beyond = false) const {
     const auto passed = [&](double start) { return beyond ? distance >= start : distance > start; };
@@ -168,13 +168,13 @@ BeamDiagram::BeamDiagram(const Beam& beam, const Vec12& end_forces, std::span<co
   state_->beam = beam;
   state_->end_forces = end_forces;
   state_->deformed.clear();
-  state_->slip.setZero();
+  state_->end_offset.setZero();
   find_internal_forces(beam.length, end_forces.head<6>(), loads, state_->forces);
   state_->tip = integrate_deformation(beam, stiffness_factor, state_->forces, &state_->deformed);
   for (const BeamLoad& load : loads) {
     if (load.kind != BeamLoad::Kind::temperature) continue;
-    state_->slip.head<6>() += load.first;
-    state_->slip.tail<6>() += load.last;
+    state_->end_offset.head<6>() += load.first;
+    state_->end_offset.tail<6>() += load.last;
   }
 }
 BeamDiagram::~BeamDiagram() = default;
@@ -250,7 +250,7 @@ void BeamDiagram::State::rigid_motion(int translation, int rotation, double sens
                                       double& offset, double& slope) const {
   const auto held = [&](int f) { return beam.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6) > 0; };
   const auto end = [&](int f) {
-    return rigid_ends(f) - slip(f) -
+    return rigid_ends(f) - end_offset(f) -
            spring_compliance(beam.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6)) * end_forces(f);
   };
   const int v1 = translation, v2 = translation + 6, r1 = rotation, r2 = rotation + 6;
@@ -277,8 +277,8 @@ Vec6 BeamDiagram::displacement(double distance, const Vec12& rigid_ends) const {
   const DeformedPiece& d = s.deformed[i];
   const auto axial_start = [&](int f) {
     const double k1 = s.beam.end_stiffness[0](f), k2 = s.beam.end_stiffness[1](f);
-    if (k1 > 0) return rigid_ends(f) - s.slip(f) - spring_compliance(k1) * s.end_forces(f);
-    if (k2 > 0) return rigid_ends(f + 6) - s.slip(f + 6) - spring_compliance(k2) * s.end_forces(f + 6) - s.tip(f);
+    if (k1 > 0) return rigid_ends(f) - s.end_offset(f) - spring_compliance(k1) * s.end_forces(f);
+    if (k2 > 0) return rigid_ends(f + 6) - s.end_offset(f + 6) - spring_compliance(k2) * s.end_forces(f + 6) - s.tip(f);
     return rigid_ends(f);
   };
   double v = 0, v_slope = 0, w = 0, w_slope = 0;

@@ -10,7 +10,7 @@ namespace {
 /// How far outside of the beam a load may lie and still be taken as rounding, relative to the length.
 constexpr double placement_tolerance = 1e-9;
 
-double place_on_beam(double distance, double length, const BeamLoad& load) {
+double position_on_beam(double distance, double length, const BeamLoad& load) {
   if (!(distance >= -placement_tolerance * length && distance <= (1 + placement_tolerance) * length)) {
     throw std::invalid_argument("load on beam " + std::to_string(load.beam) + ": distance " + std::to_string(distance) +
                                 " is outside of 0 to " + std::to_string(length));
@@ -32,8 +32,8 @@ void find_breakpoints(double length, std::span<const BeamLoad> loads, std::vecto
   places.push_back(length);
   for (const BeamLoad& load : loads) {
     if (load.kind == BeamLoad::Kind::temperature) continue;
-    places.push_back(place_on_beam(load.from, length, load));
-    if (load.kind == BeamLoad::Kind::distributed) places.push_back(place_on_beam(load.to, length, load));
+    places.push_back(position_on_beam(load.from, length, load));
+    if (load.kind == BeamLoad::Kind::distributed) places.push_back(position_on_beam(load.to, length, load));
   }
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());

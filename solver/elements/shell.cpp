@@ -38,19 +38,19 @@ Quadrilateral project(const std::array<Vec3, 4>& p, const Mat3& axes) {
 constexpr std::array<int, 3> membrane_components{0, 1, 5}, plate_components{2, 3, 4};
 
 /// Index of freedom k of a part (three for each node) among the 24.
-int place_of(const std::array<int, 3>& components, int k) {
+int index_of_component(const std::array<int, 3>& components, int k) {
   return 6 * (k / 3) + components[static_cast<std::size_t>(k % 3)];
 }
 
 Eigen::Matrix<double, 12, 1> part(const Vec24& all, const std::array<int, 3>& components) {
   Eigen::Matrix<double, 12, 1> result;
-  for (int k = 0; k < 12; ++k) result(k) = all(place_of(components, k));
+  for (int k = 0; k < 12; ++k) result(k) = all(index_of_component(components, k));
   return result;
 }
 
 void put(const Eigen::Matrix<double, 12, 12>& K, const std::array<int, 3>& components, Mat24& all) {
   for (int i = 0; i < 12; ++i) {
-    for (int j = 0; j < 12; ++j) all(place_of(components, i), place_of(components, j)) = K(i, j);
+    for (int j = 0; j < 12; ++j) all(index_of_component(components, i), index_of_component(components, j)) = K(i, j);
   }
 }
 
@@ -153,7 +153,7 @@ void ShellElement::add_arms(Mat24& K) const {
 Vec24 ShellElement::fixed_forces(const Vec3& traction, double strain) const {
   Vec24 local = Vec24::Zero();
   const MembraneVector from_strain = membrane_.strain_forces(strain);
-  for (int k = 0; k < 12; ++k) local(place_of(membrane_components, k)) = from_strain(k);
+  for (int k = 0; k < 12; ++k) local(index_of_component(membrane_components, k)) = from_strain(k);
   const Vec3 local_traction = axes_ * traction;
   for (double xi : gauss2) {
     for (double eta : gauss2) {
@@ -181,7 +181,7 @@ Eigen::Matrix<double, 8, 1> ShellElement::resultants(const Vec24& displacements,
   const Vec24 local = to_local(displacements);
   Eigen::Matrix<double, 8, 1> result = Eigen::Matrix<double, 8, 1>::Zero();
   result.head<3>() =
-      membrane_.forces(part(local, membrane_components), strain, Bilinear(at.x(), at.y()).place(corners_));
+      membrane_.forces(part(local, membrane_components), strain, Bilinear(at.x(), at.y()).position(corners_));
   if (bending_) result.tail<5>() = plate_.forces(part(local, plate_components), at.x(), at.y());
   return result;
 }

@@ -58,7 +58,7 @@ Mat24 ShellElement::geometric_stiffness(const Vec24& displacements, double strai
     for (const double eta : gauss2) {
       const Bilinear shape(xi, eta);
       const Eigen::Matrix2d jacobian = shape.jacobian(corners_);
-      const Eigen::Vector3d n = membrane_.forces(u, strain, shape.place(corners_));
+      const Eigen::Vector3d n = membrane_.forces(u, strain, shape.position(corners_));
       Eigen::Matrix2d N;
       N << n(0), n(2), n(2), n(1);
       Eigen::Matrix<double, 2, 4> derivatives;

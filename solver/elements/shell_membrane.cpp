@@ -25,7 +25,7 @@ Eigen::Matrix2d Bilinear::jacobian(const Quadrilateral& corners) const {
   return J;
 }
 
-Vec2 Bilinear::place(const Quadrilateral& corners) const {
+Vec2 Bilinear::position(const Quadrilateral& corners) const {
   Vec2 p = Vec2::Zero();
   for (int i = 0; i < 4; ++i) p += N(i) * corners[static_cast<std::size_t>(i)];
   return p;
@@ -60,7 +60,7 @@ void ShellMembrane::integrate_flexibility() {
     for (std::size_t j = 0; j < 3; ++j) {
       const Bilinear shape(gauss3[i], gauss3[j]);
       const double dA = shape.jacobian(corners_).determinant() * gauss3_weight[i] * gauss3_weight[j];
-      const Modes P = stress_modes(shape.place(corners_));
+      const Modes P = stress_modes(shape.position(corners_));
       H += dA * P.transpose() * compliance_ * P;
       unit_strain_work_ += dA * P.transpose() * Eigen::Vector3d(1, 1, 0);
       for (int n = 0; n < 4; ++n) rotation_gap_(3 * n + 2) += dA * shape.N(n);

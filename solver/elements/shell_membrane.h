@@ -54,7 +54,7 @@ struct Bilinear {
   Bilinear(double xi, double eta);
   /// Rows: derivatives of x, y by xi, then by eta.
   [[nodiscard]] Eigen::Matrix2d jacobian(const Quadrilateral& corners) const;
-  [[nodiscard]] Vec2 place(const Quadrilateral& corners) const;
+  [[nodiscard]] Vec2 position(const Quadrilateral& corners) const;
 };
 inline constexpr std::array<double, 2> gauss2{-0.57735026918962576451, 0.57735026918962576451};
 inline constexpr std::array<double, 3> gauss3{-0.77459666924148337704, 0, 0.77459666924148337704};

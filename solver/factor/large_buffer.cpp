@@ -25,7 +25,7 @@ struct KeptBlocks {
   std::vector<Block> blocks;
 
   /// Null where none fits.
-  Block take(std::size_t entries) {
+  Block acquire(std::size_t entries) {
     const std::lock_guard lock(mutex);
     auto best = blocks.end();
     for (auto block = blocks.begin(); block != blocks.end(); ++block)
@@ -73,13 +73,13 @@ void LargeBuffer::Free::operator()(double* p) const {
 
 LargeBuffer::LargeBuffer(std::size_t entries) : size_(entries) {
   KeptBlocks::Block block{nullptr, entries};
-  if (entries >= least_kept) block = kept_blocks().take(entries);
+  if (entries >= least_kept) block = kept_blocks().acquire(entries);
   if (block.memory == nullptr)
     block = {static_cast<double*>(::operator new (entries * sizeof(double), std::align_val_t{line})), entries};
   memory_ = std::unique_ptr<double, Free>(block.memory, Free{block.size});
 }
 
-LargeBuffer BufferPool::take(std::size_t entries) {
+LargeBuffer BufferPool::acquire(std::size_t entries) {
   const std::lock_guard lock(mutex_);
   const auto fits = [&](const LargeBuffer& b) { return b.size() >= entries && b.size() / 4 <= entries; };
   auto best = free_.end();

@@ -33,7 +33,7 @@ class LargeBuffer {
 class BufferPool {
  public:
   /// At least so many entries, at most four times as many.
-  [[nodiscard]] LargeBuffer take(std::size_t entries);
+  [[nodiscard]] LargeBuffer acquire(std::size_t entries);
   void give_back(LargeBuffer buffer);
   void clear();
 

@@ -184,7 +184,7 @@ bool MultifrontalFactor::process(std::size_t f, bool keep_update, Worker& worker
   front.panel = values_.data() + fronts_.value_start[f];
   const std::size_t update = entries_of_update(front.below());
   if (keep_update) {
-    kept_update_[f] = spare_.take(update);
+    kept_update_[f] = spare_.acquire(update);
     front.update = kept_update_[f].data();
   } else {
     const auto parity = static_cast<std::size_t>(odd_[f]);

@@ -101,8 +101,8 @@ void each_run(const SparseSymmetric& pattern, const NodeBlocks& blocks, const Nu
 }
 
 /// Where every entry of the matrix goes.
-void place_entries(const SparseSymmetric& pattern, const NodeBlocks& blocks, const Numbering& numbering,
-                   Supernodes& result) {
+void assign_entries(const SparseSymmetric& pattern, const NodeBlocks& blocks, const Numbering& numbering,
+                    Supernodes& result) {
   const std::size_t fronts = result.parent.size();
   const auto front_of = [&](const LooseRun& run) {
     const auto natural = static_cast<std::size_t>(result.order[static_cast<std::size_t>(run.column)]);
@@ -143,7 +143,7 @@ Supernodes find_supernodes(const SparseSymmetric& pattern, const std::vector<int
   const Numbering numbering = number_blocks(blocks, tree, result);
   find_rows(blocks, tree, numbering, result);
   result.parent = std::move(tree.parent);
-  place_entries(pattern, blocks, numbering, result);
+  assign_entries(pattern, blocks, numbering, result);
   return result;
 }
 

@@ -30,11 +30,11 @@ void ThreadPool::wait_for_loops() {
     }
     loops_.wait(seen);
     seen = loops_;
-    take_turns();
+    run_loop_turns();
   }
 }
 
-void ThreadPool::take_turns() {
+void ThreadPool::run_loop_turns() {
   for (;;) {
     const std::function<void(std::size_t)>* work = nullptr;
     std::size_t turn = 0;
@@ -65,7 +65,7 @@ void ThreadPool::run(std::size_t count, const std::function<void(std::size_t)>& 
     ++loops_;
     loops_.notify_all();
   }
-  take_turns();
+  run_loop_turns();
   {
     const std::scoped_lock lock(turns_);
     work_ = nullptr;

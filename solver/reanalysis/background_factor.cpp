@@ -35,7 +35,7 @@ void BackgroundFactor::make(const std::vector<int>& order, const AnalysisOptions
   result_ = {std::move(factor), condition, std::move(triangles)};
 }
 
-BackgroundFactor::Result BackgroundFactor::take(bool& late) {
+BackgroundFactor::Result BackgroundFactor::extract(bool& late) {
   late = !done_;
   thread_.join();
   return std::move(result_);

@@ -1,5 +1,5 @@
 #pragma once
-// A new factor made on a thread of its own, of the matrix as it was when it was begun, while the old one serves.
+// A new factor made on a thread of its own, of the matrix as it was when it was begun, while the old one is in use.
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -29,7 +29,7 @@ class BackgroundFactor {
     std::optional<TriangularSolver> triangles;  ///< over the factor
   };
   /// Waits for the factor; once. `late`: it was not there yet.
-  [[nodiscard]] Result take(bool& late);
+  [[nodiscard]] Result extract(bool& late);
 
  private:
   void make(const std::vector<int>& order, const AnalysisOptions& options);

@@ -24,15 +24,15 @@ void BaseFactor::install(TriangularSolver triangles) {
 BaseFactor::CaughtUp BaseFactor::catch_up(int places) {
   const Plan whole = plan();
   if (!whole.possible) return {};
-  const std::size_t all = planned_.size(), taken = std::min(all, static_cast<std::size_t>(places));
-  while (planned_.size() > taken) planned_.erase(std::prev(planned_.end()));
+  const std::size_t all = planned_.size(), extracted = std::min(all, static_cast<std::size_t>(places));
+  while (planned_.size() > extracted) planned_.erase(std::prev(planned_.end()));
   for (const auto& [place, modes] : planned_) number_.emplace(place, correction_->add(modes.rows, modes.B));
   planned_.clear();
   correction_->finish_adding();
   apply_changes();
   correction_->update();
-  const double share = all == 0 ? 0.0 : static_cast<double>(taken) / static_cast<double>(all);
-  return {taken == all, share * (whole.operations - solve_operations())};
+  const double share = all == 0 ? 0.0 : static_cast<double>(extracted) / static_cast<double>(all);
+  return {extracted == all, share * (whole.operations - solve_operations())};
 }
 
 /// What was restored is as the factor has it.
@@ -55,7 +55,7 @@ void BaseFactor::add_planned() {
   apply_changes();
   forget_unchanged();
   for (const auto& [place, change] : changes_.all()) {
-    if (change.taken || !change.active()) continue;
+    if (change.extracted || !change.active()) continue;
     const ElementModes& m = planned_.at(place);
     number_.emplace(place, correction_->add(m.rows, m.B));
   }
@@ -64,7 +64,7 @@ void BaseFactor::add_planned() {
 
 void BaseFactor::apply_changes() {
   for (const auto& [place, number] : number_)
-    if (const Eigen::MatrixXd* const D = changes_.take(place); D != nullptr) correction_->set(number, *D);
+    if (const Eigen::MatrixXd* const D = changes_.extract_changed(place); D != nullptr) correction_->set(number, *D);
 }
 
 void BaseFactor::update() {
@@ -220,7 +220,7 @@ double BaseFactor::solve_cost() const {
 }
 
 double BaseFactor::correction_cost() const {
-  return changed() ? columns_cost(correction_->entries(), correction_->active_rank(), correction_->places()) : 0;
+  return changed() ? columns_cost(correction_->entries(), correction_->active_rank(), correction_->place_count()) : 0;
 }
 
 }  // namespace topple::solver

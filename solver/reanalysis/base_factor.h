@@ -63,8 +63,8 @@ class BaseFactor {
   /// As forward() and solve(), of the right-hand side that update() eliminated.
   void forward_along(Eigen::VectorXd& y) const;
   void solve_along(Eigen::VectorXd& x) const;
-  /// A beam that will be taken away, and a right-hand side for the matrix without it: zero outside of these rows, those
-  /// of the beam's nodes.
+  /// A beam that will be taken away, and a right-hand side for the matrix without it: zero outside of these rows,
+  /// those of the beam's nodes.
   struct Loss {
     int beam;
     std::vector<int> rows;

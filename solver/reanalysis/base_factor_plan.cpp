@@ -51,7 +51,7 @@ BaseFactor::Plan BaseFactor::plan() {
   work.rank = plan.rank;
   work.kept = correction_->active_rank();
   for (const auto& [place, number] : number_)
-    if (!changes_.taken(place)) work.kept = std::min<double>(work.kept, correction_->rank_before(number));
+    if (!changes_.extracted(place)) work.kept = std::min<double>(work.kept, correction_->rank_before(number));
   work.kept = std::min(work.kept, work.rank);
   work.solve = {solver_->entries(), static_cast<double>(solver_->blocks())};
   plan.operations = operations_of(work) + solve_operations();

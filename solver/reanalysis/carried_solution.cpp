@@ -192,7 +192,7 @@ bool CarriedSolution::solve(ServingFactor& factor, const Eigen::VectorXd& force,
 }
 
 bool CarriedSolution::solve_in_part(ServingFactor& factor, const Eigen::VectorXd& force, SelectiveSolution& selective,
-                                    UseWatch& watch, SolveQuality& quality) {
+                                    UtilisationWatch& watch, SolveQuality& quality) {
   const FrameSystem& system = factor.system();
   const Eigen::Index n = system.dofs().equations;
   BaseFactor& base = *factor.base();

@@ -48,7 +48,7 @@ class CarriedSolution {
                            ReanalysisWork& work);
   /// The same where the watch's uses may matter. False: a full answer is needed.
   [[nodiscard]] bool solve_in_part(ServingFactor& factor, const Eigen::VectorXd& force, SelectiveSolution& selective,
-                                   UseWatch& watch, SolveQuality& quality);
+                                   UtilisationWatch& watch, SolveQuality& quality);
   /// A solution in part was made whole: brings it to the error of a full one.
   void refine_whole(ServingFactor& factor, SolveQuality& quality, ReanalysisWork& work);
 

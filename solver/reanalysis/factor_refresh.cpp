@@ -22,7 +22,7 @@ void FactorRefresh::begin(const FrameSystem& system, const std::vector<int>& ord
 /// Waits for the new factor. False: it is of no use.
 bool FactorRefresh::receive(ReanalysisWork& work) {
   bool late = false;
-  BackgroundFactor::Result made = making_->take(late);
+  BackgroundFactor::Result made = making_->extract(late);
   making_.reset();
   if (late) ++work.counters.late_factors;
   if (!made.factor) {
@@ -46,7 +46,7 @@ bool FactorRefresh::go_on(ReanalysisWork& work) {
 
 bool FactorRefresh::finish(ReanalysisWork& work) { return factor_ || (making_ && receive(work)); }
 
-FactorRefresh::Made FactorRefresh::take() { return {std::move(factor_), std::move(base_), condition_}; }
+FactorRefresh::Made FactorRefresh::release() { return {std::move(factor_), std::move(base_), condition_}; }
 
 void FactorRefresh::drop() {
   if (making_) unwanted_ = std::move(making_);

@@ -1,6 +1,7 @@
 #pragma once
-// A new factor on its way to take over: made on another thread while the old one serves, due when the answers since
-// took a share of what it takes, then brought up to what changed meanwhile, a part beside each answer.
+// The change from an old factor to a new one. The new one is made on another thread while the old one is in use. It is
+// due when the answers since then have cost a share of its own work. Then it is brought up to the changes made
+// meanwhile, a part beside each answer, and takes over.
 #include <memory>
 #include <optional>
 #include <span>
@@ -40,7 +41,7 @@ class FactorRefresh {
   /// At once, whatever it has to catch up with. False: there is none under way, or it is of no use.
   [[nodiscard]] bool finish(ReanalysisWork& work);
   /// Hands over what was made.
-  [[nodiscard]] Made take();
+  [[nodiscard]] Made release();
   /// The thread of one that is under way is waited for when the next one begins.
   void drop();
 

@@ -1,5 +1,5 @@
 #pragma once
-// How beams as they are answer strain: worked out of each when it is first asked for, and kept until the beam changes.
+// The end forces of each beam by unit strains: computed when they are first needed, and kept until the beam changes.
 #include <vector>
 
 #include "assembly/frame_system.h"

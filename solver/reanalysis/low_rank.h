@@ -45,7 +45,7 @@ class LowRankCorrection {
   [[nodiscard]] int rank() const { return static_cast<int>(gram_size_); }
   /// Columns of the active places before this one, which need no work when it changes; all columns when it is not one.
   [[nodiscard]] int rank_before(int place) const;
-  [[nodiscard]] int places() const { return static_cast<int>(places_.size()); }
+  [[nodiscard]] int place_count() const { return static_cast<int>(places_.size()); }
   /// Norm of the inverse of I + D G: how much the change has softened the structure in its softest motion.
   [[nodiscard]] double softening() const { return softening_; }
   /// Rows of all W of the active places: what one correct() goes through.

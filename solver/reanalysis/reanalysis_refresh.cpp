@@ -27,7 +27,7 @@ bool Reanalysis::State::switch_now() {
 
 void Reanalysis::State::switch_factors() {
   complete(nullptr);
-  const FactorRefresh::Made before = serving->replace(refresh.take());
+  const FactorRefresh::Made before = serving->replace(refresh.release());
   if (selective && !selective->set_factor(serving->base()->triangles())) selective.reset();
   solution.forget_first();
   ++work.counters.background_factors;

@@ -6,7 +6,7 @@
 
 namespace topple::solver {
 
-void Reanalysis::State::read_all_uses(UseWatch& watch) {
+void Reanalysis::State::read_all_utilisations(UtilisationWatch& watch) {
   BaseFactor* const base = serving->base();
   if (base == nullptr) return;
   if (!selective)
@@ -19,7 +19,7 @@ void Reanalysis::State::read_all_uses(UseWatch& watch) {
   selective->read_all(watch);
 }
 
-bool Reanalysis::State::answer_in_part(UseWatch& watch) {
+bool Reanalysis::State::answer_in_part(UtilisationWatch& watch) {
   if (serving->base() == nullptr || !selective || !selective->uses_known()) return false;
   if (!solution.solve_in_part(*serving, load.vector().force, *selective, watch, answer.quality)) return false;
   report_effort();
@@ -57,7 +57,7 @@ void Reanalysis::State::find_whole() const {
 }
 
 /// The displacements of what was left out; where the structure stands, with the backward error of a full answer.
-void Reanalysis::State::complete(UseWatch* watch) {
+void Reanalysis::State::complete(UtilisationWatch* watch) {
   if (!selective) return;
   const bool behind = selective->partial();
   if (!behind && (watch == nullptr || !selective->unread())) return;
@@ -70,16 +70,16 @@ void Reanalysis::State::complete(UseWatch* watch) {
 }
 
 bool Reanalysis::uses_known() const { return state_->selective && state_->selective->uses_known(); }
-const ReanalysisAnswer& Reanalysis::solve(UseWatch& watch) {
+const ReanalysisAnswer& Reanalysis::solve(UtilisationWatch& watch) {
   if (!model().patches.empty()) throw std::invalid_argument("patches have no uses to watch: call solve()");
   return state_->solve(&watch);
 }
-void Reanalysis::complete(UseWatch* watch) { state_->complete(watch); }
-void Reanalysis::forget_uses() {
+void Reanalysis::complete(UtilisationWatch* watch) { state_->complete(watch); }
+void Reanalysis::forget_utilisations() {
   if (state_->selective) state_->selective->forget_growths();
 }
 void Reanalysis::forget_references() {
-  if (state_->selective) state_->selective->forget_uses();
+  if (state_->selective) state_->selective->forget_utilisations();
 }
 
 }  // namespace topple::solver

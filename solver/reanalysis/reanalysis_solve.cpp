@@ -10,7 +10,7 @@ namespace topple::solver {
 bool Reanalysis::State::solve_loads() {
   count_work(nodes_cost(static_cast<double>(system->model.nodes.size())));
   complete(nullptr);
-  if (selective) selective->forget_uses();
+  if (selective) selective->forget_utilisations();
   return solution.solve(*serving, load.vector().force, answer.quality, work);
 }
 
@@ -22,11 +22,11 @@ void Reanalysis::State::give_up(const Defect& defect) {
 const ReanalysisAnswer& Reanalysis::solve() { return state_->solve(nullptr); }
 
 /// From what is to become of the structure to its factor.
-void Reanalysis::State::apply_changes(UseWatch* watch) {
+void Reanalysis::State::apply_changes(UtilisationWatch* watch) {
   effort = {};
   whole_known = false;
   // The uses of the present answer are what a selective one starts from.
-  if (watch != nullptr && selective && !selective->uses_known() && answered && stands()) read_all_uses(*watch);
+  if (watch != nullptr && selective && !selective->uses_known() && answered && stands()) read_all_utilisations(*watch);
   watched = watch != nullptr;
   solution.forget_elimination();
   apply_changes();
@@ -43,11 +43,11 @@ void Reanalysis::State::apply_changes(UseWatch* watch) {
     mechanism = update_structure(touched_nodes);
 }
 
-const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
+const ReanalysisAnswer& Reanalysis::State::solve(UtilisationWatch* watch) {
   work.operations = 0;
   if (!pending()) {
     ++work.counters.unchanged;
-    if (watch != nullptr && answer.stable) read_all_uses(*watch);
+    if (watch != nullptr && answer.stable) read_all_utilisations(*watch);
     return answer;
   }
   const double before = counted_work();
@@ -57,7 +57,7 @@ const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
   return answer;
 }
 
-void Reanalysis::State::find_answer(UseWatch* watch) {
+void Reanalysis::State::find_answer(UtilisationWatch* watch) {
   ++work.counters.solves;
   if (mechanism) {
     give_up(*std::exchange(mechanism, std::nullopt));
@@ -76,7 +76,7 @@ void Reanalysis::State::find_answer(UseWatch* watch) {
     }
     (void)solve_loads();
   }
-  if (watch != nullptr) read_all_uses(*watch);
+  if (watch != nullptr) read_all_utilisations(*watch);
 }
 
 }  // namespace topple::solver

@@ -62,10 +62,10 @@ struct Reanalysis::State {
   void apply_given_stiffness(std::vector<int>& touched);
   void remember_plate(std::size_t element);
   void rebuild();
-  template <class Tell>
-  void report_factors(const Tell& tell) {
-    if (serving->base() != nullptr) tell(serving->base()->changes());
-    if (refresh.base() != nullptr) tell(refresh.base()->changes());
+  template <class Report>
+  void report_factors(const Report& report) {
+    if (serving->base() != nullptr) report(serving->base()->changes());
+    if (refresh.base() != nullptr) report(refresh.base()->changes());
   }
 
   // reanalysis_strategy.cpp
@@ -95,9 +95,9 @@ struct Reanalysis::State {
   void count_answer(int solves) { refresh.pay(serving->count_answer(solves)); }
 
   // reanalysis_solve.cpp
-  [[nodiscard]] const ReanalysisAnswer& solve(UseWatch* watch);
-  void apply_changes(UseWatch* watch);
-  void find_answer(UseWatch* watch);
+  [[nodiscard]] const ReanalysisAnswer& solve(UtilisationWatch* watch);
+  void apply_changes(UtilisationWatch* watch);
+  void find_answer(UtilisationWatch* watch);
   /// False when refinement does not reach rounding level.
   [[nodiscard]] bool solve_loads();
   void give_up(const Defect& defect);
@@ -109,14 +109,14 @@ struct Reanalysis::State {
 
   // reanalysis_selective.cpp
   /// Brings displacements up to date where the watch needs it. False: a full answer is needed.
-  [[nodiscard]] bool answer_in_part(UseWatch& watch);
+  [[nodiscard]] bool answer_in_part(UtilisationWatch& watch);
   void report_effort();
   /// Displacements everywhere, whatever the answer under way has left out.
   [[nodiscard]] const std::vector<Vec6>& whole() const;
   void find_whole() const;
   /// Makes a selective answer whole.
-  void complete(UseWatch* watch);
-  void read_all_uses(UseWatch& watch);
+  void complete(UtilisationWatch* watch);
+  void read_all_utilisations(UtilisationWatch& watch);
 
   // reanalysis.cpp
   [[nodiscard]] Vec12 end_forces(std::size_t beam, const std::vector<Vec6>& displacements, const Vec12& fixed) const;

@@ -1,5 +1,5 @@
 #pragma once
-// What a Reanalysis tells of its work; each of its parts adds its own.
+// Counters and predicted operations of a Reanalysis; each of its parts adds its own.
 #include "topple/solver/reanalysis.h"
 
 namespace topple::solver {

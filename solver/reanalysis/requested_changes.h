@@ -1,6 +1,6 @@
 #pragma once
-// What a structure is to become with its next answer, and what of it differs from the structure as it is. Numbers are
-// those of the model, and exist.
+// Changes that were requested and not applied yet: what each part is to be in the next answer, and which parts differ
+// from that now. Numbers are those of the model, and exist.
 #include <array>
 #include <map>
 #include <span>

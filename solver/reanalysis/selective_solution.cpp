@@ -99,7 +99,7 @@ void SelectiveSolution::bring_older(int block, Answer answer) {
   older_[b] = 0;
 }
 
-void SelectiveSolution::complete(Answer answer, UseWatch* watch) {
+void SelectiveSolution::complete(Answer answer, UtilisationWatch* watch) {
   if (partial_) {
     for (int block = solver_->blocks() - 1; block >= 0; --block) {
       const auto b = static_cast<std::size_t>(block);
@@ -115,9 +115,9 @@ void SelectiveSolution::complete(Answer answer, UseWatch* watch) {
   if (watch != nullptr && uses_known_ && any_unread_) read_unread(*watch);
 }
 
-void SelectiveSolution::read_unread(UseWatch& watch) {
+void SelectiveSolution::read_unread(UtilisationWatch& watch) {
   for (int block = 0; block < solver_->blocks(); ++block) {
-    if (unread_[static_cast<std::size_t>(block)] != 0) read_uses(block, watch);
+    if (unread_[static_cast<std::size_t>(block)] != 0) read_utilisations(block, watch);
     update_bound(block);
   }
   any_unread_ = false;
@@ -125,12 +125,12 @@ void SelectiveSolution::read_unread(UseWatch& watch) {
 
 void SelectiveSolution::note(double use) { now_.worst = std::max(now_.worst, use); }
 
-void SelectiveSolution::read_uses(int block, UseWatch& watch) {
+void SelectiveSolution::read_utilisations(int block, UtilisationWatch& watch) {
   constexpr double element = 750;  // ns, of its energy and its uses
   double use = 0;
   count_work(element * static_cast<double>(contents_.beams(block).size() + contents_.shells(block).size()));
-  for (const int beam : contents_.beams(block)) use = std::max(use, watch.beam_use(beam));
-  for (const int shell : contents_.shells(block)) use = std::max(use, watch.shell_use(shell));
+  for (const int beam : contents_.beams(block)) use = std::max(use, watch.beam_utilisation(beam));
+  for (const int shell : contents_.shells(block)) use = std::max(use, watch.shell_utilisation(shell));
   own_use_[static_cast<std::size_t>(block)] = use;
   unread_[static_cast<std::size_t>(block)] = 0;
   note(use);
@@ -145,21 +145,21 @@ void SelectiveSolution::update_bound(int block) {
     bound_[b] = std::max(bound_[b], bound_[static_cast<std::size_t>(child)]);
 }
 
-void SelectiveSolution::read_all(UseWatch& watch) {
+void SelectiveSolution::read_all(UtilisationWatch& watch) {
   now_.worst = 0;
   read_growths(watch);
   for (int block = 0; block < solver_->blocks(); ++block) {
-    read_uses(block, watch);
+    read_utilisations(block, watch);
     update_bound(block);
     slack_[static_cast<std::size_t>(block)] = 0;
   }
-  for (const int beam : contents_.held_beams()) note(watch.beam_use(beam));
-  for (const int shell : contents_.held_shells()) note(watch.shell_use(shell));
+  for (const int beam : contents_.held_beams()) note(watch.beam_utilisation(beam));
+  for (const int shell : contents_.held_shells()) note(watch.shell_utilisation(shell));
   uses_known_ = true;
   any_unread_ = false;
 }
 
-void SelectiveSolution::read_growths(UseWatch& watch) {
+void SelectiveSolution::read_growths(UtilisationWatch& watch) {
   if (growths_known_) return;
   growths_known_ = true;
   for (int block = 0; block < solver_->blocks(); ++block) {
@@ -282,7 +282,7 @@ void SelectiveSolution::leave_out(int block) {
 }
 
 /// From the children of what was visited downwards, those deepest in the tree (nearest to the change) first.
-void SelectiveSolution::descend(const Eigen::VectorXd& y, UseWatch& watch, Answer answer) {
+void SelectiveSolution::descend(const Eigen::VectorXd& y, UtilisationWatch& watch, Answer answer) {
   now_.open.clear();
   for (const int block : now_.visits)
     for (const int child : contents_.children(block))
@@ -305,7 +305,7 @@ void SelectiveSolution::descend(const Eigen::VectorXd& y, UseWatch& watch, Answe
     if (older_[b] != 0) bring_older(block, answer);
     step_now(block, y, answer);
     now_.remaining -= twice_energy_of_elements(block);
-    read_uses(block, watch);
+    read_utilisations(block, watch);
     for (const int child : contents_.children(block)) now_.open.push_back(child);
   }
 }
@@ -337,7 +337,7 @@ void SelectiveSolution::finish(const Eigen::VectorXd& y) {
 }
 
 void SelectiveSolution::advance(std::span<const int> rows, const Eigen::VectorXd& residual, const Eigen::VectorXd& y,
-                                UseWatch& watch, Answer answer) {
+                                UtilisationWatch& watch, Answer answer) {
   effort_ = {};
   now_.visits.clear();
   now_.worst = bound_left_out_ = 0;
@@ -349,10 +349,10 @@ void SelectiveSolution::advance(std::span<const int> rows, const Eigen::VectorXd
   effort_.energy = now_.remaining / 2;
   for (const int block : now_.visits) {
     now_.remaining -= twice_energy_of_elements(block);
-    read_uses(block, watch);
+    read_utilisations(block, watch);
   }
-  for (const int beam : contents_.held_beams()) note(watch.beam_use(beam));
-  for (const int shell : contents_.held_shells()) note(watch.shell_use(shell));
+  for (const int beam : contents_.held_beams()) note(watch.beam_utilisation(beam));
+  for (const int shell : contents_.held_shells()) note(watch.shell_utilisation(shell));
   descend(y, watch, answer);
   finish(y);
 }

@@ -2,7 +2,7 @@
 // Selective back substitution: answers that are brought up to date only where they may matter. The change of an answer
 // obeys L' du = y with y nonzero on the elimination paths of what changed alone, so that a subtree of the elimination
 // tree away from these paths follows its separator: du inside is L^-T (-L_sep' du_sep), at any later time. It is left
-// out as long as the use (demand over capacity) of nothing inside can matter.
+// out as long as no utilisation (demand over capacity) inside can matter.
 //
 // What the change can do there is bounded by strain energy. With r the residual that the change left, the energy of
 // the whole change is r.du / 2 (r lives on a few rows), every element's is positive, and those of all elements that
@@ -18,7 +18,7 @@
 #include "elements/beam_strain_forces.h"
 #include "factor/triangular.h"
 #include "reanalysis/block_contents.h"
-#include "topple/solver/use_watch.h"
+#include "topple/solver/utilisation_watch.h"
 
 namespace topple::solver {
 
@@ -28,8 +28,8 @@ class SelectiveSolution {
   /// `solver` holds the factor of the system's matrix at some time; both must outlive this. The answer is whole.
   SelectiveSolution(const FrameSystem& system, const TriangularSolver& solver, BeamStiffness stiffness);
 
-  /// Replaces the factor by another one of the same pattern. Known uses stay. The answer must be whole. Returns false,
-  /// and changes nothing, when its blocks are others.
+  /// Replaces the factor by another one of the same pattern. Known utilisations stay. The answer must be whole. Returns
+  /// false, and changes nothing, when its blocks are others.
   [[nodiscard]] bool set_factor(const TriangularSolver& solver);
 
   /// The answer: scaled, in the matrix's order, and what is read from it.
@@ -39,18 +39,18 @@ class SelectiveSolution {
   };
 
   /// Brings everything up to date, and reads every use that was only bounded. With a null `watch` none is read.
-  void complete(Answer answer, UseWatch* watch);
+  void complete(Answer answer, UtilisationWatch* watch);
   /// Reads every use; the answer must be whole.
-  void read_all(UseWatch& watch);
+  void read_all(UtilisationWatch& watch);
   [[nodiscard]] bool uses_known() const { return uses_known_; }
-  void forget_uses() { uses_known_ = false; }
+  void forget_utilisations() { uses_known_ = false; }
   /// To be called when elements may be stiffer than before, so that their uses can grow faster.
   void forget_growths() { uses_known_ = growths_known_ = false; }
   /// How many numbers a copy of this holds.
   [[nodiscard]] std::size_t size() const { return behind_.size(); }
   /// True when some displacements are not up to date.
   [[nodiscard]] bool partial() const { return partial_; }
-  /// True when uses of elements that are up to date were not read.
+  /// True when utilisations of elements that are up to date were not read.
   [[nodiscard]] bool unread() const { return any_unread_; }
   [[nodiscard]] bool beam_is_current(int beam) const { return is_current(contents_.block_of_beam(beam)); }
   [[nodiscard]] bool node_is_current(int node) const { return is_current(contents_.block_of_node(node)); }
@@ -61,8 +61,8 @@ class SelectiveSolution {
   const std::vector<char>& begin(std::span<const int> rows, Answer answer);
   /// Carries a change through, as far as the watch needs it: y (in elimination order) was made from `residual`, which
   /// is nonzero in the rows of begin() alone.
-  void advance(std::span<const int> rows, const Eigen::VectorXd& residual, const Eigen::VectorXd& y, UseWatch& watch,
-               Answer answer);
+  void advance(std::span<const int> rows, const Eigen::VectorXd& residual, const Eigen::VectorXd& y,
+               UtilisationWatch& watch, Answer answer);
 
   struct Effort {
     double entries = 0;  ///< of the factor that the backward solve went through
@@ -72,7 +72,7 @@ class SelectiveSolution {
   };
   /// Of the last advance().
   [[nodiscard]] const Effort& effort() const { return effort_; }
-  /// Upper bound of the uses of all elements that are not up to date.
+  /// Upper bound of the utilisations of all elements that are not up to date.
   [[nodiscard]] double bound_left_out() const { return bound_left_out_; }
 
  private:
@@ -82,13 +82,13 @@ class SelectiveSolution {
   void step_now(int block, const Eigen::VectorXd& y, Answer answer);
   void add_to_solution(int block, Answer answer);
   void read_nodes(int block, Answer answer) const;
-  void read_uses(int block, UseWatch& watch);
+  void read_utilisations(int block, UtilisationWatch& watch);
   [[nodiscard]] double twice_energy_of_elements(int block) const;
   void update_bound(int block);
   void note(double use);
-  void read_growths(UseWatch& watch);
-  void read_unread(UseWatch& watch);
-  void descend(const Eigen::VectorXd& y, UseWatch& watch, Answer answer);
+  void read_growths(UtilisationWatch& watch);
+  void read_unread(UtilisationWatch& watch);
+  void descend(const Eigen::VectorXd& y, UtilisationWatch& watch, Answer answer);
   void leave_out(int block);
   void finish(const Eigen::VectorXd& y);
   [[nodiscard]] double energy_left_out() const;
@@ -101,11 +101,11 @@ class SelectiveSolution {
   BlockContents contents_;
   // Per block.
   std::vector<char> older_;   ///< it is behind by what `behind_` and `waiting_` hold
-  std::vector<char> unread_;  ///< its uses are bounds
+  std::vector<char> unread_;  ///< its utilisations are bounds
   std::vector<std::int64_t> below_start_;
   std::vector<double> behind_;  ///< change of the rows below the block since it was visited
   std::vector<double> own_use_;
-  std::vector<double> bound_, growth_;  ///< of the whole subtree: of its uses; most growth
+  std::vector<double> bound_, growth_;  ///< of the whole subtree: of its utilisations; most growth
   std::vector<double> slack_;           ///< sqrt(2 energy) that the subtree may have taken since it was visited
   Eigen::VectorXd waiting_;             ///< y of blocks that are behind
   /// The change under way.

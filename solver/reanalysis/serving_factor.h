@@ -1,5 +1,5 @@
 #pragma once
-// The factor that answers, with what changed since it was made as a low-rank correction, and the choice between a
+// The factor in use, with what changed since it was made as a low-rank correction, and the choice between a
 // correction and a new factor. All vectors are in the scaled equations unless they are called forces or displacements.
 #include <Eigen/Core>
 #include <memory>

@@ -7,7 +7,7 @@
 namespace topple::solver {
 namespace {
 
-/// Answers to unit forces weigh blows, which are known far less well.
+/// Answers to unit forces weigh impacts, which are known far less well.
 constexpr double response_error = 1e-11;
 /// Over a structure that became this much softer than the factor's one refinement is made.
 constexpr double soft = 1e3;

@@ -79,7 +79,7 @@ void SystemChanges::set(Place place, const Eigen::Ref<const Eigen::MatrixXd>& D)
   if (known != changes_.end()) {
     if (known->second.D.size() == D.size() && known->second.D == D) return;
     known->second.D = D;
-    known->second.taken = false;
+    known->second.extracted = false;
   } else if ((D.array() != 0).any()) {
     changes_.emplace(place, Change{D, false});
   }
@@ -170,7 +170,7 @@ void SystemChanges::hold_dropped_parts() {
   for (auto& [place, change] : changes_) {
     if (place.kind != Kind::ground) continue;
     change.D.setZero();
-    change.taken = false;
+    change.extracted = false;
   }
   std::vector<int> part(dropped_.size());
   std::iota(part.begin(), part.end(), 0);
@@ -205,9 +205,9 @@ void SystemChanges::hold_dropped_parts() {
   }
 }
 
-const Eigen::MatrixXd* SystemChanges::take(Place place) {
+const Eigen::MatrixXd* SystemChanges::extract_changed(Place place) {
   Change& change = changes_.at(place);
-  return std::exchange(change.taken, true) ? nullptr : &change.D;
+  return std::exchange(change.extracted, true) ? nullptr : &change.D;
 }
 
 SystemChanges::Place SystemChanges::add_unchanged(int beam, Eigen::Index columns) {

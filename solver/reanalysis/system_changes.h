@@ -38,18 +38,18 @@ class SystemChanges {
   };
   struct Change {
     Eigen::MatrixXd D;
-    bool taken = false;  ///< by take(), as it is
+    bool extracted = false;  ///< by extract_changed(), as it is
     [[nodiscard]] bool active() const { return (D.array() != 0).any(); }
   };
   /// Compares the system as it is now with what was remembered. False: something changed that is none of a place's.
   [[nodiscard]] bool compare();
   /// Of every place that has or had one, by the last compare().
   [[nodiscard]] const std::map<Place, Change>& all() const { return changes_; }
-  [[nodiscard]] bool taken(Place place) const { return changes_.at(place).taken; }
-  /// D of the place where it is another than when it was last taken, else null.
-  [[nodiscard]] const Eigen::MatrixXd* take(Place place);
+  [[nodiscard]] bool extracted(Place place) const { return changes_.at(place).extracted; }
+  /// D of the place where it is another than when it was last extracted, else null.
+  [[nodiscard]] const Eigen::MatrixXd* extract_changed(Place place);
   [[nodiscard]] ElementModes modes(Place place) const;
-  /// A beam's place with a D of zero, taken. Returns it.
+  /// A beam's place with a D of zero, extracted. Returns it.
   Place add_unchanged(int beam, Eigen::Index columns);
   /// A place whose D has become zero again: no need to look at it until it changes again.
   void forget(Place place);

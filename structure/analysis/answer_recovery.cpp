@@ -12,6 +12,7 @@
 #include "analysis/second_order_member.h"
 #include "failure/panel_demand.h"
 #include "mesh/semi_rigid_elements.h"
+#include "model/index_of.h"
 #include "parallel/in_order.h"
 #include "topple/solver/beam_diagram.h"
 #include "topple/solver/parallel_for.h"
@@ -19,13 +20,13 @@
 namespace topple::structure {
 
 AnswerRecovery::AnswerRecovery(const Building& building, const Frame& frame, const EdgeMembers& edges,
-                               const AnalysisRequest& request, bool brief, bool side_by_side)
+                               const AnalysisRequest& request, bool brief, bool parallel)
     : building_(building),
       frame_(frame),
       edges_(edges),
       request_(request),
       brief_(brief),
-      side_by_side_(side_by_side),
+      parallel_(parallel),
       bearing_edges_(building, frame, edges),
       bearings_(building, edges),
       storeys_(building) {
@@ -133,7 +134,7 @@ std::vector<MemberResult> AnswerRecovery::members(const OneWayAnswer& answer, Lo
   // Linear combinations go side by side themselves, and the sums of their loads have one place.
   constexpr std::size_t together = 256;
   const std::size_t parts = (all.size() + together - 1) / together;
-  solver::parallel_for(parts, workers_for(parts, side_by_side_ ? 1 : request_.workers), [&](std::size_t part) {
+  solver::parallel_for(parts, workers_for(parts, parallel_ ? 1 : request_.workers), [&](std::size_t part) {
     for (std::size_t i = part * together; i < std::min(all.size(), (part + 1) * together); ++i) one(i);
   });
   return all;
@@ -190,8 +191,7 @@ std::vector<Utilisation> AnswerRecovery::joints(const PartLoads& parts, const Ed
   std::vector<Utilisation> used(building_.joints.size());
   for (const auto& [m, end] : breakable_ends_) {
     const JointId id = building_.joint(MemberId(m), end);
-    used[static_cast<std::size_t>(id.index)] =
-        utilisation(building_[id].capacity, member_joint_demand(result.members[m].end_forces, end));
+    used[index_of(id)] = utilisation(building_[id].capacity, member_joint_demand(result.members[m].end_forces, end));
   }
   for (std::size_t p = 0; p < building_.panels.size(); ++p) {
     const PanelId panel(p);
@@ -204,7 +204,7 @@ std::vector<Utilisation> AnswerRecovery::joints(const PartLoads& parts, const Ed
       const auto e = static_cast<std::size_t>(edge);
       if (!building_[id].capacity.breakable) continue;
       if (!meshed) demand[e] += handed_edge_demand(building_, bearings_, panel, edge, forces[p][e]);
-      used[static_cast<std::size_t>(id.index)] = utilisation(building_[id].capacity, demand[e]);
+      used[index_of(id)] = utilisation(building_[id].capacity, demand[e]);
     }
   }
   return used;

@@ -28,9 +28,9 @@ struct SummedCases {
 class AnswerRecovery {
  public:
   /// `brief`: without extremes, stations, the largest displacement and the meshes' errors (analyse_briefly()).
-  /// `side_by_side`: combinations are recovered on several threads, so that members of one are not.
+  /// `parallel`: combinations are recovered on several threads, so that members of one are not.
   AnswerRecovery(const Building& building, const Frame& frame, const EdgeMembers& edges, const AnalysisRequest& request,
-                 bool brief, bool side_by_side);
+                 bool brief, bool parallel);
 
   [[nodiscard]] CombinationResult recovered(CombinationId combination, const OneWayAnswer& answer,
                                             CombinationLoads loads) const;
@@ -77,7 +77,7 @@ class AnswerRecovery {
   const Frame& frame_;
   const EdgeMembers& edges_;
   const AnalysisRequest& request_;
-  bool brief_, side_by_side_;
+  bool brief_, parallel_;
   BearingEdges bearing_edges_;
   PanelBearings bearings_;
   Storeys storeys_;

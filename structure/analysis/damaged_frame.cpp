@@ -108,7 +108,7 @@ void DamagedFrame::load(const PartLoads& loads) {
 }
 
 void DamagedFrame::write_loads() {
-  const FrameLoads::Changed changed = loads_->take_changed();
+  const FrameLoads::Changed changed = loads_->extract_changed();
   for (const MemberId member : changed.members) {
     std::vector<solver::BeamLoad> on = loads_->on(member);
     for (solver::BeamLoad& load : on) load.beam = member.index;
@@ -277,7 +277,7 @@ void DamagedFrame::read_demands(const Motion& motion, std::vector<Vec6>& demand,
   }
   for (std::size_t p = 0; p < building_.panels.size(); ++p) {
     const PanelId panel(p);
-    const bool shell = !bearings_.serves(panel);
+    const bool shell = !bearings_.tracks(panel);
     if (!shell && !bearings_.stands(panel)) continue;
     const std::array<bool, 4> holds = shell ? std::array{true, true, true, true} : bearings_.holds(panel);
     std::optional<std::array<Vec6, 4>> corners;
@@ -305,7 +305,7 @@ void DamagedFrame::weigh_panels(MovingFrame& moving, std::vector<double>& mass) 
   for (std::size_t p = 0; p < building_.panels.size(); ++p) {
     const PanelId panel(p);
     const Panel& own = building_.panels[p];
-    const bool shell = !bearings_.serves(panel);
+    const bool shell = !bearings_.tracks(panel);
     const double weighed = loads_->mass(panel), density = building_[own.material].density;
     if (shell) {
       const double total = weighed > 0 ? weighed : density * panel_area(building_, own, true) * own.thickness;
@@ -338,7 +338,7 @@ solver::LoadSet DamagedFrame::loads_of_case(LoadCaseId load_case) const {
   const PartLoads parts = part_loads(alone, CombinationId(0));
   refuse_loads_that_are_not_built(alone, CombinationId(0), parts, "loads that go with time");
   for (std::size_t p = 0; p < building_.panels.size(); ++p)
-    if (!bearings_.serves(PanelId(p)) && (parts.panels[p].pressure != 0 || !parts.panels[p].body_force.isZero(0)))
+    if (!bearings_.tracks(PanelId(p)) && (parts.panels[p].pressure != 0 || !parts.panels[p].body_force.isZero(0)))
       refuse(building_, "loads that go with time", "a load on a shell panel (" + building_.panels[p].name + ")",
              "load cases on nodes, members and other panels");
   return load_set(alone, edges_, parts);

@@ -2,6 +2,7 @@
 // A building whose members are divided where shell panels hang on them (join_shells.h), and what its parts were.
 #include <vector>
 
+#include "model/index_of.h"
 #include "topple/structure/building.h"
 
 namespace topple::structure {
@@ -14,15 +15,13 @@ class DividedBuilding {
 
   [[nodiscard]] const Building& building() const { return divided_; }
   /// Of a member of the whole building, from its first end to its second.
-  [[nodiscard]] const std::vector<MemberId>& pieces(MemberId member) const {
-    return pieces_[static_cast<std::size_t>(member.index)];
-  }
+  [[nodiscard]] const std::vector<MemberId>& pieces(MemberId member) const { return pieces_[index_of(member)]; }
   /// The member that this one is a piece of.
-  [[nodiscard]] MemberId member(MemberId piece) const { return member_[static_cast<std::size_t>(piece.index)]; }
+  [[nodiscard]] MemberId member(MemberId piece) const { return member_[index_of(piece)]; }
   /// The joint of the whole building; not valid for one between pieces.
-  [[nodiscard]] JointId joint(JointId divided) const { return joint_[static_cast<std::size_t>(divided.index)]; }
+  [[nodiscard]] JointId joint(JointId divided) const { return joint_[index_of(divided)]; }
   /// The node is one of the whole building.
-  [[nodiscard]] bool given(NodeId node) const { return static_cast<std::size_t>(node.index) < nodes_; }
+  [[nodiscard]] bool given(NodeId node) const { return index_of(node) < nodes_; }
 
  private:
   void find_pieces(std::size_t members);

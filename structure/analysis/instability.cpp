@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "analysis/instability.h"
+#include "model/index_of.h"
 #include "model/short_number.h"
 #include "standing/unstable_model.h"
 
@@ -14,14 +15,14 @@ namespace {
 std::vector<NodeId> held_by_membranes_only(const Building& building, const std::vector<NodeId>& moving) {
   std::vector<char> on_member(building.nodes.size(), 0), on_membrane(building.nodes.size(), 0);
   for (const Member& member : building.members)
-    for (const NodeId node : member.nodes) on_member[static_cast<std::size_t>(node.index)] = 1;
+    for (const NodeId node : member.nodes) on_member[index_of(node)] = 1;
   for (const Panel& panel : building.panels)
     if (panel.model != PanelModel::cladding)
       for (const NodeId node : panel.nodes)
-        (panel.model == PanelModel::membrane ? on_membrane : on_member)[static_cast<std::size_t>(node.index)] = 1;
+        (panel.model == PanelModel::membrane ? on_membrane : on_member)[index_of(node)] = 1;
   std::vector<NodeId> found;
   for (const NodeId node : moving) {
-    const auto n = static_cast<std::size_t>(node.index);
+    const auto n = index_of(node);
     if (on_membrane[n] != 0 && on_member[n] == 0) found.push_back(node);
   }
   return found;
@@ -111,8 +112,8 @@ Diagnosis diagnose(const Building& building, const Frame& frame, const solver::I
   for (const int beam : mechanism.beams) alone[member_of(building, frame, beam)] = 1;
   for (std::size_t m = 0; m < building.members.size(); ++m) {
     const Member& member = building.members[m];
-    const bool hangs_on = std::any_of(member.nodes.begin(), member.nodes.end(),
-                                      [&](NodeId node) { return moves[static_cast<std::size_t>(node.index)] != 0; });
+    const bool hangs_on =
+        std::any_of(member.nodes.begin(), member.nodes.end(), [&](NodeId node) { return moves[index_of(node)] != 0; });
     if (hangs_on || alone[m] != 0) result.members.push_back(MemberId(m));
   }
   return result;

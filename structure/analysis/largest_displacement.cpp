@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/index_of.h"
+
 namespace topple::structure {
 
 namespace {
@@ -12,7 +14,7 @@ constexpr int places = 64;  // a parabola's peak between two of them is missed b
 
 /// Motion of a member's end, after its offset.
 Vec3 end_motion(const Member& member, std::size_t end, const std::vector<Vec6>& displacements) {
-  const Vec6& u = displacements[static_cast<std::size_t>(member.nodes[end].index)];
+  const Vec6& u = displacements[index_of(member.nodes[end])];
   return u.head<3>() + Vec3(u.tail<3>()).cross(member.offsets[end]);
 }
 
@@ -81,14 +83,14 @@ double largest_in_shape(const Building& building, const std::vector<Vec6>& shape
   for (std::size_t m = 0; m < building.members.size(); ++m) {
     const Member& member = building.members[m];
     std::vector<Vec3> moved{member.axes * end_motion(member, 0, shape)};
-    std::vector<Vec3> turned{member.axes * shape[static_cast<std::size_t>(member.nodes[0].index)].tail<3>()};
+    std::vector<Vec3> turned{member.axes * shape[index_of(member.nodes[0])].tail<3>()};
     for (std::size_t i = 0; i < (cuts.empty() ? 0 : cuts[m].size()); ++i) {
       const Vec6& inner = shape[static_cast<std::size_t>(cuts[m][i])];
       moved.emplace_back(member.axes * inner.head<3>());
       turned.emplace_back(member.axes * inner.tail<3>());
     }
     moved.emplace_back(member.axes * end_motion(member, 1, shape));
-    turned.emplace_back(member.axes * shape[static_cast<std::size_t>(member.nodes[1].index)].tail<3>());
+    turned.emplace_back(member.axes * shape[index_of(member.nodes[1])].tail<3>());
     const double length = member.length / static_cast<double>(moved.size() - 1);
     for (std::size_t i = 0; i + 1 < moved.size(); ++i)
       largest = std::max(largest, largest_between({moved[i], moved[i + 1]}, {turned[i], turned[i + 1]}, length));

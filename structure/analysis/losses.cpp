@@ -130,7 +130,7 @@ class Losses {
       return state;
     }
     check_joints(in_full, state);
-    if (in_full) take_state(state);
+    if (in_full) record_state(state);
     return state;
   }
 
@@ -162,10 +162,10 @@ class Losses {
   [[nodiscard]] static std::optional<double> amplification(const JointPeak& peak, const Vec6& before,
                                                            const Vec6& after) {
     constexpr double least_change = 0.01;  // of the capacity
-    const auto sense = static_cast<Eigen::Index>(peak.use.sense);
+    const auto sense = static_cast<Eigen::Index>(peak.utilisation.sense);
     const Eigen::Index component = std::max<Eigen::Index>(0, sense - 1);  // tension and compression share one
     const double change = after(component) - before(component);
-    if (std::abs(change) < least_change * peak.use.capacity) return std::nullopt;
+    if (std::abs(change) < least_change * peak.utilisation.capacity) return std::nullopt;
     return (peak.demand(component) - before(component)) / change;
   }
 
@@ -175,13 +175,13 @@ class Losses {
       const Vec6 felt = sudden(reference_->demand[index_of(joint)], demand_[index_of(joint)]);
       const Utilisation used = utilisation(building_[joint].capacity, felt);
       if (in_full) state.joints.emplace_back(divided_.joint(joint), used);
-      if (state.worst.valid() && !(used.value > state.use.value)) continue;
+      if (state.worst.valid() && !(used.value > state.utilisation.value)) continue;
       state.worst = divided_.joint(joint);
-      state.use = used;
+      state.utilisation = used;
     }
   }
 
-  void take_state(LossState& state) const {
+  void record_state(LossState& state) const {
     const std::vector<Vec6>& after = frame_.analysis().displacements();
     for (std::size_t n = 0; n < whole_.nodes.size(); ++n)
       state.displacements.push_back(sudden(reference_->displacements[n], after[n]));
@@ -217,7 +217,7 @@ class Losses {
     const auto badness = [](const MemberLoss& loss) {
       double worst = 0;
       for (const LossState& state : loss.states)
-        worst = std::max(worst, state.stands() ? state.use.value : std::numeric_limits<double>::infinity());
+        worst = std::max(worst, state.stands() ? state.utilisation.value : std::numeric_limits<double>::infinity());
       return worst;
     };
     std::stable_sort(result_.losses.begin(), result_.losses.end(),

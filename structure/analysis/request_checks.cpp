@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "model/index_of.h"
 #include "model/short_number.h"
 #include "topple/structure/number_range.h"
 
@@ -13,7 +14,7 @@ namespace topple::structure {
 void require_request(const Building& building, const AnalysisRequest& request) {
   const auto require_ids = [](const auto& ids, std::size_t count, const char* kind) {
     for (const auto id : ids)
-      if (!id.valid() || static_cast<std::size_t>(id.index) >= count)
+      if (!id.valid() || index_of(id) >= count)
         throw std::out_of_range("analyse: there is no " + std::string(kind) + " with index " +
                                 std::to_string(id.index) + " (there are " + std::to_string(count) + ")");
   };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/index_of.h"
+
 namespace topple::structure {
 
 Storeys::Storeys(const Building& building) : building_(building), storey_of_(building.members.size(), -1) {
@@ -30,7 +32,7 @@ std::vector<StoreyResult> Storeys::results(const std::vector<Vec6>& displacement
     if (storey_of_[i] < 0) continue;
     const Member& post = building_.members[i];
     StoreyResult& storey = storeys[static_cast<std::size_t>(storey_of_[i])];
-    const auto at = [&](std::size_t end) { return static_cast<std::size_t>(post.nodes[end].index); };
+    const auto at = [&](std::size_t end) { return index_of(post.nodes[end]); };
     const double height = std::abs(building_[post.nodes[1]].position.z() - building_[post.nodes[0]].position.z());
     if (height > 0)
       storey.drift =

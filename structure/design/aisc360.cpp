@@ -12,7 +12,7 @@ using namespace aisc360;
 struct Strengths {
   double tension, compression, moment_y, moment_z, torsion;
   ShearStrength shear;
-  double moment_y_use = 0;  ///< of the stretch between restraints in which it is largest
+  double moment_y_utilisation = 0;  ///< of the stretch between restraints in which it is largest
 };
 
 /// H1.2: tension along the whole member holds the compressed flange; what C_b is multiplied by.
@@ -33,9 +33,9 @@ void set_flexure(Strengths& r, const SteelSection& s, const DesignMember& member
     const double cb = stretch.factor * tension_factor(s, stretch.length, tension);
     const double strength = phi_flexure * strong_strength(s, stretch.length, cb, {});
     const double use = stretch.moment / strength;
-    if (worst != nullptr && use <= r.moment_y_use) continue;
+    if (worst != nullptr && use <= r.moment_y_utilisation) continue;
     worst = &stretch;
-    r.moment_y_use = use;
+    r.moment_y_utilisation = use;
     r.moment_y = strength;
   }
   if (!trail.on() || worst == nullptr) return;
@@ -93,7 +93,7 @@ void trace_interaction(const Strengths& r, const LargestForces& forces, const Tr
   const char* const clause = "AISC 360 H1-1";
   trail.add(clause, "P_u/P_c", "compression over phi_c P_n", forces.compression / r.compression, plain_number);
   trail.add(clause, "P_u/P_c (tension)", "tension over phi_t P_n", forces.tension / r.tension, plain_number);
-  trail.add(clause, "M_ux/M_cx", "over phi_b M_nx", r.moment_y_use, plain_number);
+  trail.add(clause, "M_ux/M_cx", "over phi_b M_nx", r.moment_y_utilisation, plain_number);
   trail.add(clause, "M_uy/M_cy", "over phi_b M_ny", forces.moment_z / r.moment_z, plain_number);
 }
 
@@ -108,7 +108,7 @@ DesignResult check_aisc360(const DesignMember& member, std::span<const SectionFo
   const Strengths r = strengths(steel, member, stations, trail);
   trace_interaction(r, forces, trail);
   ClauseList clauses;
-  const double moments = r.moment_y_use + forces.moment_z / r.moment_z;
+  const double moments = r.moment_y_utilisation + forces.moment_z / r.moment_z;
   if (forces.compression > 0) {
     clauses.add("AISC 360 E1", forces.compression / r.compression);
     clauses.add("AISC 360 H1-1", interaction(forces.compression / r.compression, moments));
@@ -117,7 +117,7 @@ DesignResult check_aisc360(const DesignMember& member, std::span<const SectionFo
     clauses.add("AISC 360 D2", forces.tension / r.tension);
     clauses.add("AISC 360 H1-1 (tension)", interaction(forces.tension / r.tension, moments));
   }
-  clauses.add("AISC 360 F1", std::max(r.moment_y_use, forces.moment_z / r.moment_z));
+  clauses.add("AISC 360 F1", std::max(r.moment_y_utilisation, forces.moment_z / r.moment_z));
   if (r.shear.y > 0 && r.shear.z > 0)
     clauses.add("AISC 360 G1", std::max(forces.shear_y / r.shear.y, forces.shear_z / r.shear.z));
   check_closed_torsion(clauses, r, forces, moments);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "design/alignment_chart.h"
+#include "model/index_of.h"
 
 namespace topple::structure {
 
@@ -14,7 +15,7 @@ constexpr double holds_along = 0.5;   // cosine: what meets a member within 60 d
 constexpr double braced_ratio = 4;    // braces against posts: 80 % of the sidesway is taken off
 constexpr double millimetre = 1e-3;
 
-std::size_t index(auto id) { return static_cast<std::size_t>(id.index); }
+std::size_t index(auto id) { return index_of(id); }
 
 Vec3 axis(const Member& member) { return member.axes.row(0).transpose(); }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "design/aisc360_parts.h"
+#include "model/index_of.h"
 #include "model/panel_area.h"
 #include "model/short_number.h"
 #include "topple/structure/error.h"
@@ -80,8 +81,7 @@ Building with_notional_loads(const Building& building, const std::vector<Combina
     for (const Direction& to : directions) {
       Combination combination{building[id].name + " " + to.name, building[id].factors};
       for (const auto& [load, factor] : building[id].factors)
-        combination.factors.emplace_back(LoadCaseId(cases + to.axis * cases + static_cast<std::size_t>(load.index)),
-                                         to.sign * factor);
+        combination.factors.emplace_back(LoadCaseId(cases + to.axis * cases + index_of(load)), to.sign * factor);
       for (const Combination& other : leaning.combinations)
         if (other.name == combination.name)
           throw InputError(building.file + ": combination " + combination.name +

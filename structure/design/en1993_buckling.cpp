@@ -104,7 +104,7 @@ Reductions reductions(const SteelSection& steel, const DesignMember& member, dou
   return r;
 }
 
-struct LateralUse {
+struct LateralUtilisation {
   double use = 0, chi = 1;  ///< M_y,Ed/M_b,Rd of the stretch in which it is largest, and its reduction
 };
 
@@ -118,12 +118,12 @@ void trace_lateral(const CheckedStretch& stretch, double mcr, double slenderness
 }
 
 /// 6.3.2.2: every stretch between restraints by itself.
-LateralUse lateral_use(const SteelSection& steel, const DesignMember& member, const SectionClass& cls,
-                       double resistance, std::span<const SectionForces> stations, const Trail& trail) {
+LateralUtilisation lateral_utilisation(const SteelSection& steel, const DesignMember& member, const SectionClass& cls,
+                                       double resistance, std::span<const SectionForces> stations, const Trail& trail) {
   const bool open = steel.kind == SteelSection::Kind::I || steel.kind == SteelSection::Kind::other;
   const bool twists = open || (steel.kind == SteelSection::Kind::solid && steel.depth > steel.width);
   const double imperfection = buckling_curves(steel).lateral, modulus = resistance * gamma_m0 / cls.fy;
-  LateralUse worst;
+  LateralUtilisation worst;
   CheckedStretch told;
   double told_mcr = 0, told_slenderness = 0;
   for (const CheckedStretch& stretch : checked_stretches(member, stations, moment_factor_serna)) {
@@ -221,7 +221,8 @@ void check_flexural(ClauseList& clauses, const SteelSection& steel, const Design
 void check_buckling(ClauseList& clauses, const SteelSection& steel, const DesignMember& member, const SectionClass& cls,
                     const Resistance& section, const LargestForces& forces, double bimoment,
                     std::span<const SectionForces> stations, const Trail& trail) {
-  const LateralUse lateral_buckling = lateral_use(steel, member, cls, section.moment_y, stations, trail);
+  const LateralUtilisation lateral_buckling =
+      lateral_utilisation(steel, member, cls, section.moment_y, stations, trail);
   const double moment_y = lateral_buckling.use;
   const double moment_z = forces.moment_z / (section.moment_z * gamma_m0 / gamma_m1);
   clauses.add(lateral, moment_y);

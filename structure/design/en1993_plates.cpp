@@ -84,16 +84,17 @@ double flange_resistance(const SteelSection& s, const DesignMember& member, doub
   return plastic / (c * gamma_m1) * (1 - std::pow(moment / f.moment, 2));
 }
 
-struct ShearUse {
+struct ShearUtilisation {
   double shear = 0, with_moment = 0;
 };
 
-ShearUse use_at(const SteelSection& s, const DesignMember& member, const SectionForces& at, double web) {
+ShearUtilisation utilisation_at(const SteelSection& s, const DesignMember& member, const SectionForces& at,
+                                double web) {
   const Flanges f = flanges_alone(s, at[0]);
   const double moment = std::abs(at[4]), shear = std::abs(at[2]);
   const double most = eta * s.fy * s.web_height() * s.web * (s.kind == SteelSection::Kind::box ? 2 : 1) /
                       (std::numbers::sqrt3 * gamma_m1);
-  ShearUse use;
+  ShearUtilisation use;
   use.shear = shear / std::min(web + flange_resistance(s, member, moment, f), most);
   const double of_web = shear / web;
   if (of_web > 0.5 && moment > f.moment)
@@ -110,7 +111,7 @@ void trace(const SteelSection& s, const DesignMember& member, const SectionForce
   trail.add(clause, "M_pl,Rd", "of effective flanges and the whole web (7.1(1))", f.plastic, of_moment);
   trail.add(clause, "V_bf,Rd", "b_f t_f^2 f_yf/(c gamma_M1) (1 - (M_Ed/M_f,Rd)^2) (5.8); 0 without stiffeners",
             flange_resistance(s, member, std::abs(at[4]), f), of_force);
-  const ShearUse use = use_at(s, member, at, web);
+  const ShearUtilisation use = utilisation_at(s, member, at, web);
   trail.add(clause, "eta_3", "V_Ed/V_b,Rd (5.10)", use.shear, plain_number);
   trail.add("EN 1993-1-5 7.1 (7.1)", "use", "eta_1 + (1 - M_f,Rd/M_pl,Rd) (2 eta_3 - 1)^2 (7.1)", use.with_moment,
             plain_number);
@@ -134,7 +135,7 @@ void check_strong_axis(ClauseList& clauses, const SteelSection& s, const Section
   double most = -1;
   const SectionForces* worst = nullptr;
   for (const SectionForces& at : stations) {
-    const ShearUse use = use_at(s, member, at, resistance);
+    const ShearUtilisation use = utilisation_at(s, member, at, resistance);
     clauses.add("EN 1993-1-5 5.2 (5.10)", use.shear);
     if (use.with_moment > 0) clauses.add("EN 1993-1-5 7.1 (7.1)", use.with_moment);
     if (std::max(use.shear, use.with_moment) <= most) continue;

@@ -9,6 +9,7 @@
 #include "design/bracing.h"
 #include "design/mode_lengths.h"
 #include "design/turned_section.h"
+#include "model/index_of.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -207,7 +208,7 @@ DesignMembers::DesignMembers(const Building& building, const DesignInput& input)
     if (stiffened.empty())
       throw InputError(building.file + ": stiffeners of " + name +
                        ": no such member; accepted: members' names, patterns with *, and groups");
-    for (const MemberId id : stiffened) members_[static_cast<std::size_t>(id.index)].stiffener_spacing = spacing;
+    for (const MemberId id : stiffened) members_[index_of(id)].stiffener_spacing = spacing;
   }
 }
 
@@ -234,7 +235,7 @@ DesignMembers::State DesignMembers::state(const CombinationResult& combination) 
 }
 
 DesignMember DesignMembers::member(MemberId id, const CombinationResult& combination, const State& state) const {
-  DesignMember checked = members_[static_cast<std::size_t>(id.index)];
+  DesignMember checked = members_[index_of(id)];
   if (checked.section == nullptr) return checked;
   const auto length = [&](std::size_t way) -> double& { return way == 0 ? checked.lengths.y : checked.lengths.z; };
   for (std::size_t way = 0; way < 2; ++way)
@@ -281,7 +282,7 @@ void check_design(const Building& building, DesignCode code, double drift_limit,
 
 DesignAudit audit_design(const DesignMembers& members, DesignCode code, MemberId member, const Building& building,
                          const CombinationResult& combination) {
-  const auto m = static_cast<std::size_t>(member.index);
+  const auto m = index_of(member);
   const DesignMember taken = members.member(member, combination, members.state(combination));
   DesignAudit audit;
   if (taken.section != nullptr) audit.result = checked(code, taken, building, m, combination.members[m], &audit.steps);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/index_of.h"
+
 namespace topple::structure {
 
 namespace {
@@ -26,7 +28,7 @@ std::array<Bend, 2> bends(const Building& building, MemberId id, const solver::B
   const Section& section = building[m.section];
   std::array<Vec3, 2> place, turn;
   for (std::size_t end = 0; end < 2; ++end) {
-    const Vec6& u = mode.shape[static_cast<std::size_t>(m.nodes[end].index)];
+    const Vec6& u = mode.shape[index_of(m.nodes[end])];
     const Vec3 turned = u.tail<3>();
     place[end] = m.axes * (u.head<3>() + turned.cross(m.offsets[end]));
     turn[end] = m.axes * turned;
@@ -65,7 +67,7 @@ std::array<ModeLength, 2> lengths_from_modes(const Building& building, MemberId 
                                              const CombinationResult& combination,
                                              const std::vector<double>& largest_bends) {
   std::array<ModeLength, 2> found;
-  const double force = compression(combination.members[static_cast<std::size_t>(member.index)]);
+  const double force = compression(combination.members[index_of(member)]);
   const Member& m = building[member];
   const Section& section = building[m.section];
   for (ModeLength& one : found)
@@ -90,7 +92,7 @@ std::array<ModeLength, 2> lengths_from_modes(const Building& building, MemberId 
 
 std::array<std::optional<double>, 2> longest_by_modes(const Building& building, MemberId member,
                                                       const CombinationResult& combination) {
-  const double force = compression(combination.members[static_cast<std::size_t>(member.index)]);
+  const double force = compression(combination.members[index_of(member)]);
   if (!(force > 0) || combination.buckling.empty()) return {};
   const Member& m = building[member];
   const auto length = [&](double inertia) {

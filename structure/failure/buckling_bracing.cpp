@@ -69,7 +69,7 @@ bool BucklingBracing::braced(NodeId node) const {
     if (segments_.holds(building_.joint(member, 0)) && segments_.holds(building_.joint(member, 1))) return true;
   }
   return std::any_of(plates_at_[index_of(node)].begin(), plates_at_[index_of(node)].end(), [&](PanelId panel) {
-    return bearings_.serves(panel) ? bearings_.membrane(panel) : segments_.label(panel) >= 0;
+    return bearings_.tracks(panel) ? bearings_.membrane(panel) : segments_.label(panel) >= 0;
   });
 }
 

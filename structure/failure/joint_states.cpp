@@ -11,8 +11,8 @@ JointStates::JointStates(const Building& building, double sudden)
       reference_(building.joints.size(), Vec6::Zero()),
       strength_(building.joints.size(), 1.0),
       largest_(building.joints.size(), 0.0),
-      felt_(building.joints.size()),
-      felt_known_(building.joints.size(), 0) {
+      amplified_(building.joints.size()),
+      amplified_known_(building.joints.size(), 0) {
   for (std::size_t j = 0; j < building.joints.size(); ++j) capacity_changed(JointId(j));
 }
 
@@ -59,16 +59,17 @@ void JointStates::lose(JointId joint) {
 
 Utilisation JointStates::utilisation(JointId joint) const { return used(joint, demand_[index(joint)]); }
 
-const Utilisation& JointStates::felt(JointId joint) const {
+const Utilisation& JointStates::amplified(JointId joint) const {
   const std::size_t j = index(joint);
-  if (felt_known_[j] != 0) return felt_[j];
+  if (amplified_known_[j] != 0) return amplified_[j];
   const bool settled = sudden_ == 1.0 || reference_[j] == demand_[j];
-  felt_known_[j] = 1;
-  return felt_[j] = used(joint, settled ? demand_[j] : Vec6(reference_[j] + sudden_ * (demand_[j] - reference_[j])));
+  amplified_known_[j] = 1;
+  return amplified_[j] =
+             used(joint, settled ? demand_[j] : Vec6(reference_[j] + sudden_ * (demand_[j] - reference_[j])));
 }
 
 Utilisation JointStates::check(JointId joint) {
-  const Utilisation now = felt(joint);
+  const Utilisation now = amplified(joint);
   remember(joint, now.value);
   return now;
 }

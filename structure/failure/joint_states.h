@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "model/index_of.h"
 #include "topple/structure/building.h"
 #include "topple/structure/joint_check.h"
 
@@ -50,7 +51,7 @@ class JointStates {
   /// Of the static demand.
   [[nodiscard]] Utilisation utilisation(JointId joint) const;
   /// Of the demand that counts for breaking. Found anew only when that or the capacity changed.
-  [[nodiscard]] const Utilisation& felt(JointId joint) const;
+  [[nodiscard]] const Utilisation& amplified(JointId joint) const;
   /// The same; remembers the largest.
   [[nodiscard]] Utilisation check(JointId joint);
   [[nodiscard]] double largest(JointId joint) const { return largest_[index(joint)]; }
@@ -63,16 +64,16 @@ class JointStates {
   }
 
  private:
-  static std::size_t index(JointId joint) { return static_cast<std::size_t>(joint.index); }
-  void forget(JointId joint) { felt_known_[index(joint)] = 0; }
+  static std::size_t index(JointId joint) { return index_of(joint); }
+  void forget(JointId joint) { amplified_known_[index(joint)] = 0; }
 
   const Building& building_;
   double sudden_;
   std::vector<Vec6> demand_, reference_;
   std::vector<double> strength_, largest_;
   std::map<JointId, JointCapacity> brittle_;  ///< of ductile joints
-  mutable std::vector<Utilisation> felt_;
-  mutable std::vector<char> felt_known_;
+  mutable std::vector<Utilisation> amplified_;
+  mutable std::vector<char> amplified_known_;
 };
 
 }  // namespace topple::structure

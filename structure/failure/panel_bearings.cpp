@@ -30,11 +30,11 @@ PanelBearings::PanelBearings(const Building& building, const EdgeMembers& edges)
     const Panel& panel = building.panels[p];
     const PanelId id(p);
     State& own = states_[p];
-    own.served = panel.model != PanelModel::shell;
+    own.tracked = panel.model != PanelModel::shell;
     own.stands = true;
     own.holds.fill(true);
     own.membrane = panel.model == PanelModel::membrane;
-    if (!own.served) continue;
+    if (!own.tracked) continue;
     for (NodeId node : panel.nodes) panels_at_node_[index_of(node)].push_back(id);
     for (int edge = 0; edge < 4; ++edge)
       for (MemberId member : edges_.of(id, edge)) panels_on_member_[index_of(member)].push_back(id);
@@ -62,7 +62,7 @@ PanelBearings::Changes PanelBearings::break_edge(PanelId panel, int edge) {
   Changes changes;
   State& own = state(panel);
   bool& holds = own.holds[static_cast<std::size_t>(edge)];
-  if (!own.served || !own.stands || !holds) return changes;
+  if (!own.tracked || !own.stands || !holds) return changes;
   holds = false;
   changes.lost_edge.push_back(panel);
   settle(panel, changes);

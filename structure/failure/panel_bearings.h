@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/index_of.h"
 #include "topple/structure/frame.h"
 
 namespace topple::structure {
@@ -39,7 +40,7 @@ class PanelBearings {
   /// A node that stands, but with no member on it: a membrane can no longer hang there.
   Changes bare(NodeId node);
 
-  [[nodiscard]] bool serves(PanelId panel) const { return state(panel).served; }
+  [[nodiscard]] bool tracks(PanelId panel) const { return state(panel).tracked; }
   [[nodiscard]] bool stands(PanelId panel) const { return state(panel).stands; }
   [[nodiscard]] bool membrane(PanelId panel) const { return state(panel).membrane; }
   [[nodiscard]] const std::array<bool, 4>& holds(PanelId panel) const { return state(panel).holds; }
@@ -51,18 +52,16 @@ class PanelBearings {
   [[nodiscard]] const std::vector<bool>& member_stands() const { return member_stands_; }
   [[nodiscard]] const EdgeMembers& edge_members() const { return edges_; }
   /// Panels of which the member bears an edge.
-  [[nodiscard]] const std::vector<PanelId>& on(MemberId member) const {
-    return panels_on_member_[static_cast<std::size_t>(member.index)];
-  }
+  [[nodiscard]] const std::vector<PanelId>& on(MemberId member) const { return panels_on_member_[index_of(member)]; }
 
  private:
   struct State {
-    bool served = false, stands = false, membrane = false;
+    bool tracked = false, stands = false, membrane = false;
     std::array<bool, 4> holds{};
     std::array<double, 4> edge_length{unlimited, unlimited, unlimited, unlimited};
   };
-  [[nodiscard]] const State& state(PanelId panel) const { return states_[static_cast<std::size_t>(panel.index)]; }
-  State& state(PanelId panel) { return states_[static_cast<std::size_t>(panel.index)]; }
+  [[nodiscard]] const State& state(PanelId panel) const { return states_[index_of(panel)]; }
+  State& state(PanelId panel) { return states_[index_of(panel)]; }
   /// -1: stands; 0 and up: left in that part; -2: gone.
   [[nodiscard]] int bearer(PanelId panel, int edge) const;
   void settle(PanelId panel, Changes& changes);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/shell_edges.h"
+#include "model/index_of.h"
 
 namespace topple::structure {
 
@@ -21,7 +22,7 @@ Segmentation::Segmentation(const Building& building)
     if (joint.member.valid()) {
       const NodeId node = building[joint.member].nodes[static_cast<std::size_t>(joint.end)];
       edges_.push_back({node.index, vertex(joint.member), true});
-    } else if (const int shell = shell_vertex_[static_cast<std::size_t>(joint.panel.index)]; shell >= 0) {
+    } else if (const int shell = shell_vertex_[index_of(joint.panel)]; shell >= 0) {
       for (const NodeId node : nodes_of_edge(building, joint.panel, joint.end))
         edges_.push_back({node.index, shell, true});
     }
@@ -29,10 +30,9 @@ Segmentation::Segmentation(const Building& building)
   first_edge_of_joint_.push_back(static_cast<int>(edges_.size()));
   supported_.assign(static_cast<std::size_t>(nodes_ + members_) + shell_panels_.size(), 0);
   for (const NodeSupport& support : building.supports)
-    if ((support.stiffness.array() > 0).any()) supported_[static_cast<std::size_t>(support.node.index)] = 1;
+    if ((support.stiffness.array() > 0).any()) supported_[index_of(support.node)] = 1;
   for (const EdgeSupport& support : building.edge_supports)
-    if (const int shell = shell_vertex_[static_cast<std::size_t>(support.panel.index)];
-        shell >= 0 && (support.stiffness.array() > 0).any())
+    if (const int shell = shell_vertex_[index_of(support.panel)]; shell >= 0 && (support.stiffness.array() > 0).any())
       ++supported_[static_cast<std::size_t>(shell)];
   build_adjacency();
   label_all();
@@ -71,12 +71,12 @@ void Segmentation::label_all() {
 }
 
 int Segmentation::label(PanelId panel) const {
-  const int v = shell_vertex_[static_cast<std::size_t>(panel.index)];
+  const int v = shell_vertex_[index_of(panel)];
   return v < 0 ? -1 : label_[static_cast<std::size_t>(v)];
 }
 
 void Segmentation::break_joint(JointId joint) {
-  const auto j = static_cast<std::size_t>(joint.index);
+  const auto j = index_of(joint);
   if (!joint_holds_[j]) return;
   const std::size_t first_of_panels = 2 * static_cast<std::size_t>(members_);
   if (j >= first_of_panels && shell_vertex_[(j - first_of_panels) / 4] < 0) return;
@@ -87,7 +87,7 @@ void Segmentation::break_joint(JointId joint) {
 
 void Segmentation::detach(PanelId shell, NodeId node) {
   for (std::size_t edge = 0; edge < 4; ++edge) {
-    const std::size_t j = 2 * static_cast<std::size_t>(members_) + 4 * static_cast<std::size_t>(shell.index) + edge;
+    const std::size_t j = 2 * static_cast<std::size_t>(members_) + 4 * index_of(shell) + edge;
     for (int e = first_edge_of_joint_[j]; e < first_edge_of_joint_[j + 1]; ++e)
       if (const Edge& own = edges_[static_cast<std::size_t>(e)]; own.holds && own.first == node.index) cut(e);
   }
@@ -96,21 +96,21 @@ void Segmentation::detach(PanelId shell, NodeId node) {
 void Segmentation::remove(MemberId member) {
   break_joint(JointId(static_cast<std::size_t>(2 * member.index)));
   break_joint(JointId(static_cast<std::size_t>(2 * member.index + 1)));
-  take_out(vertex(member));
+  remove_vertex(vertex(member));
 }
 
 void Segmentation::remove(PanelId panel) {
-  const int v = shell_vertex_[static_cast<std::size_t>(panel.index)];
+  const int v = shell_vertex_[index_of(panel)];
   if (v < 0) return;
   for (int edge = 0; edge < 4; ++edge)
     break_joint(JointId(static_cast<std::size_t>(2 * members_ + 4 * panel.index + edge)));
-  take_out(v);
+  remove_vertex(v);
 }
 
 void Segmentation::remove_support(NodeId node) { lose_support(node.index); }
 
 void Segmentation::remove_support(PanelId panel) {
-  if (const int v = shell_vertex_[static_cast<std::size_t>(panel.index)]; v >= 0) lose_support(v);
+  if (const int v = shell_vertex_[index_of(panel)]; v >= 0) lose_support(v);
 }
 
 void Segmentation::lose_support(int vertex_index) {
@@ -122,7 +122,7 @@ void Segmentation::lose_support(int vertex_index) {
 }
 
 /// A vertex whose joints are all broken is a segment of its own, which ends here.
-void Segmentation::take_out(int vertex_index) {
+void Segmentation::remove_vertex(int vertex_index) {
   int& label = label_[static_cast<std::size_t>(vertex_index)];
   if (label < 0) return;
   segments_[static_cast<std::size_t>(label)].gone = true;

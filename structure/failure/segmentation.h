@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/index_of.h"
 #include "topple/structure/building.h"
 
 namespace topple::structure {
@@ -37,9 +38,9 @@ class Segmentation {
   /// Parts that have lost their last support since the last call, in order of their least vertex; they leave the graph.
   [[nodiscard]] std::vector<Part> extract_unanchored();
 
-  [[nodiscard]] bool holds(JointId joint) const { return joint_holds_[static_cast<std::size_t>(joint.index)] != 0; }
+  [[nodiscard]] bool holds(JointId joint) const { return joint_holds_[index_of(joint)] != 0; }
   /// Label of the segment that holds a vertex, -1 when it left. Labels are small integers, never used again.
-  [[nodiscard]] int label(NodeId node) const { return label_[static_cast<std::size_t>(node.index)]; }
+  [[nodiscard]] int label(NodeId node) const { return label_[index_of(node)]; }
   [[nodiscard]] int label(MemberId member) const { return label_[static_cast<std::size_t>(vertex(member))]; }
   /// Of a shell panel; -1 for other panels.
   [[nodiscard]] int label(PanelId panel) const;
@@ -47,7 +48,7 @@ class Segmentation {
   [[nodiscard]] int labels() const { return static_cast<int>(segments_.size()); }
   [[nodiscard]] bool anchored(int label) const { return segments_[static_cast<std::size_t>(label)].supports > 0; }
   /// Joints that still hold a node to its members and shell panels.
-  [[nodiscard]] int degree(NodeId node) const { return degree_[static_cast<std::size_t>(node.index)]; }
+  [[nodiscard]] int degree(NodeId node) const { return degree_[index_of(node)]; }
 
   /// Joint breaks that were searched, and vertices that the searches looked at.
   [[nodiscard]] std::uint64_t searches() const { return searches_; }
@@ -70,7 +71,7 @@ class Segmentation {
   void cut(int edge);
   void split_off(const std::vector<int>& side, int old_label, int stays);
   bool step(std::vector<int>& queue, std::size_t& next, std::uint64_t mine, std::uint64_t theirs);
-  void take_out(int vertex_index);
+  void remove_vertex(int vertex_index);
   [[nodiscard]] std::vector<int> walk(int from);
   [[nodiscard]] Part part_of(std::vector<int> vertices) const;
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "formats/geometry.h"
+#include "model/index_of.h"
 #include "sections/section_capacity.h"
 
 namespace topple::structure::formats {
@@ -102,7 +103,7 @@ MemberId ModelDraft::add_member(const MemberDraft& draft, const JsonValue& place
     joint.end = end;
     if (const JointTypeId type = draft.joints[static_cast<std::size_t>(end)]; type.valid()) {
       joint.capacity = capacity_of(type, draft.section, draft.material, place);
-      const JointType& description = joint_types[static_cast<std::size_t>(type.index)];
+      const JointType& description = joint_types[index_of(type)];
       if (description.stiffness) joint.stiffness = *description.stiffness;
     }
     member_joints_.push_back(std::move(joint));
@@ -145,7 +146,7 @@ PanelId ModelDraft::add_panel(PanelDraft draft, const JsonValue& place) {
     joint.panel = id;
     joint.end = edge;
     if (draft.joint.valid()) {
-      const JointType& type = joint_types[static_cast<std::size_t>(draft.joint.index)];
+      const JointType& type = joint_types[index_of(draft.joint)];
       joint.capacity = edge_capacity(type, place);
       if (type.stiffness && panel.model != PanelModel::shell)
         place.fail("its joint " + in_quotes(type.name) + " has `stiffness`; accepted for membrane and cladding: none");
@@ -175,7 +176,7 @@ void ModelDraft::add_case(const std::string& name, const JsonValue& place) {
 }
 
 void ModelDraft::add_support(const NodeSupport& support, const JsonValue& place) {
-  std::int32_t& index = support_of_node_[static_cast<std::size_t>(support.node.index)];
+  std::int32_t& index = support_of_node_[index_of(support.node)];
   if (index >= 0)
     place.fail("the node " + in_quotes(building[support.node].name) +
                " has a support already; accepted: one for each node");
@@ -184,7 +185,7 @@ void ModelDraft::add_support(const NodeSupport& support, const JsonValue& place)
 }
 
 const NodeSupport* ModelDraft::support_of(NodeId node) const {
-  const std::int32_t index = support_of_node_[static_cast<std::size_t>(node.index)];
+  const std::int32_t index = support_of_node_[index_of(node)];
   return index < 0 ? nullptr : &building.supports[static_cast<std::size_t>(index)];
 }
 
@@ -241,7 +242,7 @@ const JointCapacity& ModelDraft::capacity_of(JointTypeId type_id, SectionId sect
                                              const JsonValue& place) {
   const auto key = std::tuple(type_id, section, material);
   if (const auto known = capacities_.find(key); known != capacities_.end()) return known->second;
-  const JointType& type = joint_types[static_cast<std::size_t>(type_id.index)];
+  const JointType& type = joint_types[index_of(type_id)];
   if (!type.has_capacity && type.per_length)
     place.fail("its joint " + in_quotes(type.name) + " has `capacity_per_length`; accepted for a member: `capacity`");
   JointCapacity capacity;

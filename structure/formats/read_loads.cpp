@@ -1,5 +1,6 @@
 // Load cases and combinations.
 #include "formats/model_reader.h"
+#include "model/index_of.h"
 
 namespace topple::structure::formats {
 
@@ -223,7 +224,7 @@ void read_loads(const JsonValue& root, ModelDraft& draft) {
   const auto loads = root.find("loads");
   if (!loads) return;
   for (const JsonValue value : *loads) {
-    LoadCase& load_case = draft.building.cases[static_cast<std::size_t>(draft.case_of_key(value).index)];
+    LoadCase& load_case = draft.building.cases[index_of(draft.case_of_key(value))];
     read_case(value, draft, load_case);
   }
 }

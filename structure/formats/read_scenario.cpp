@@ -34,14 +34,14 @@ class ScenarioReader {
 
   Scenario read() {
     scenario_.combination = read_combination();
-    take(root_, "title", scenario_.title, [](const JsonValue& v) { return std::string(v.text()); });
-    take(root_, "step", scenario_.step, within(ranges::step));
-    take(root_, "duration", scenario_.duration, within(ranges::duration));
-    take(root_, "until_rest", scenario_.until_rest, boolean);
-    take(root_, "seed", scenario_.seed,
-         [](const JsonValue& v) { return static_cast<std::uint64_t>(v.whole(0, std::int64_t{1} << 53)); });
-    take(root_, "ground", scenario_.ground, within(ranges::place));
-    take(root_, "standing", scenario_.standing, [](const JsonValue& v) {
+    read_optional(root_, "title", scenario_.title, [](const JsonValue& v) { return std::string(v.text()); });
+    read_optional(root_, "step", scenario_.step, within(ranges::step));
+    read_optional(root_, "duration", scenario_.duration, within(ranges::duration));
+    read_optional(root_, "until_rest", scenario_.until_rest, boolean);
+    read_optional(root_, "seed", scenario_.seed,
+                  [](const JsonValue& v) { return static_cast<std::uint64_t>(v.whole(0, std::int64_t{1} << 53)); });
+    read_optional(root_, "ground", scenario_.ground, within(ranges::place));
+    read_optional(root_, "standing", scenario_.standing, [](const JsonValue& v) {
       const std::string_view rule = v.text("\"static\" or \"dynamic\"");
       if (rule != "static" && rule != "dynamic") v.refuse("\"static\" or \"dynamic\"");
       return rule == "dynamic" ? StandingRule::dynamics : StandingRule::statics;
@@ -76,10 +76,10 @@ class ScenarioReader {
       dynamics.fail("what stands does not move in time with \"standing\": \"static\"; accepted: one of the two");
     dynamics.only({"substeps", "damping", "spectral_radius"});
     MotionRules& rules = scenario_.motion;
-    take(dynamics, "substeps", rules.substeps,
-         [](const JsonValue& v) { return static_cast<int>(v.whole(1, most_substeps)); });
-    take(dynamics, "damping", rules.damping, within(ranges::unit));
-    take(dynamics, "spectral_radius", rules.spectral_radius, within(ranges::unit));
+    read_optional(dynamics, "substeps", rules.substeps,
+                  [](const JsonValue& v) { return static_cast<int>(v.whole(1, most_substeps)); });
+    read_optional(dynamics, "damping", rules.damping, within(ranges::unit));
+    read_optional(dynamics, "spectral_radius", rules.spectral_radius, within(ranges::unit));
   }
 
   void read_failure(const JsonValue& failure) {
@@ -87,41 +87,41 @@ class ScenarioReader {
       quota->fail("nothing limits what may break in a step any more: " + std::string(pace_is_the_hosts));
     failure.only({"bracing", "mechanism", "second_order", "sudden"});
     FailureRules& rules = scenario_.failure;
-    take(failure, "bracing", rules.bracing, [](const JsonValue& v) {
+    read_optional(failure, "bracing", rules.bracing, [](const JsonValue& v) {
       const std::string_view rule = v.text("\"buckling\", \"classic\" or \"none\"");
       if (rule == "buckling") return BracingRule::buckling;
       if (rule == "classic") return BracingRule::classic;
       if (rule != "none") v.refuse("\"buckling\", \"classic\" or \"none\"");
       return BracingRule::none;
     });
-    take(failure, "mechanism", rules.mechanism, [](const JsonValue& v) {
+    read_optional(failure, "mechanism", rules.mechanism, [](const JsonValue& v) {
       const std::string_view rule = v.text("\"hinge\" or \"detach\"");
       if (rule != "hinge" && rule != "detach") v.refuse("\"hinge\" or \"detach\"");
       return rule == "hinge" ? MechanismRule::hinge : MechanismRule::detach;
     });
-    take(failure, "second_order", rules.second_order, boolean);
+    read_optional(failure, "second_order", rules.second_order, boolean);
     if (const auto sudden = failure.find("sudden"); sudden && scenario_.standing == StandingRule::dynamics)
       sudden->fail(
           "a factor of sudden losses acts with \"standing\": \"static\" alone: what moves overshoots by itself");
-    take(failure, "sudden", rules.sudden, within(ranges::sudden));
+    read_optional(failure, "sudden", rules.sudden, within(ranges::sudden));
   }
 
   void read_impact(const JsonValue& impact) {
     impact.only({"restitution", "structure_mass"});
-    take(impact, "restitution", scenario_.impact.restitution, within(ranges::unit));
-    take(impact, "structure_mass", scenario_.impact.structure_mass, boolean);
+    read_optional(impact, "restitution", scenario_.impact.restitution, within(ranges::unit));
+    read_optional(impact, "structure_mass", scenario_.impact.structure_mass, boolean);
   }
 
   void read_debris(const JsonValue& debris) {
     debris.only({"friction", "restitution", "limit", "smallest_volume"});
-    take(debris, "friction", scenario_.debris.friction, within(ranges::friction));
-    take(debris, "restitution", scenario_.debris.restitution, within(ranges::unit));
-    take(debris, "limit", scenario_.debris.limit, [](const JsonValue& v) -> std::optional<int> {
+    read_optional(debris, "friction", scenario_.debris.friction, within(ranges::friction));
+    read_optional(debris, "restitution", scenario_.debris.restitution, within(ranges::unit));
+    read_optional(debris, "limit", scenario_.debris.limit, [](const JsonValue& v) -> std::optional<int> {
       if (v.is_null()) return std::nullopt;
       if (!v.is_number()) v.refuse("a whole number from 0 to 1000000, or null for none");
       return static_cast<int>(v.whole(0, 1'000'000));
     });
-    take(debris, "smallest_volume", scenario_.debris.smallest_volume, within(ranges::volume));
+    read_optional(debris, "smallest_volume", scenario_.debris.smallest_volume, within(ranges::volume));
   }
 
   void read_events(const JsonValue& events) {

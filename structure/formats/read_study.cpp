@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t most_samples = 1'000'000'000;
 
 /// file, line and path, for messages about it later on.
-std::string place_of(const JsonValue& value) {
+std::string location_of(const JsonValue& value) {
   try {
     value.fail("");
   } catch (const InputError& error) {
@@ -101,7 +101,7 @@ class StudyReader {
     for (const JsonValue entry : list) {
       entry.expect_object();
       Variation& variation = all.emplace_back(read_variation(entry));
-      variation.place = place_of(entry);
+      variation.place = location_of(entry);
       if (const auto name = entry.find("name")) variation.name = name->text("a name");
       if (variation.name.empty()) entry.fail("the name is empty; accepted: a name");
       const bool lost = variation.target == Variation::Target::loss;
@@ -220,7 +220,7 @@ class StudyReader {
     for (const JsonValue value : groups) {
       value.only({"of", "correlation"});
       Study::Group& group = study_.groups.emplace_back();
-      group.place = place_of(value);
+      group.place = location_of(value);
       const JsonValue of = value.require("of");
       of.expect_array(1, 10'000);
       for (const JsonValue name : of) {
@@ -260,7 +260,7 @@ class StudyReader {
     for (const JsonValue entry : record) {
       Recorded& recorded = study_.record.emplace_back();
       recorded.name = entry.key();
-      recorded.place = place_of(entry);
+      recorded.place = location_of(entry);
       const std::string given(entry.text("\"summary:/...\", \"results:/...\", or the name of an output"));
       constexpr std::string_view summary = "summary:", results = "results:";
       if (given.starts_with(summary)) {

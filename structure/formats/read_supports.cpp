@@ -1,5 +1,6 @@
 // Supports, diaphragms, masses.
 #include "formats/model_reader.h"
+#include "model/index_of.h"
 
 namespace topple::structure::formats {
 
@@ -102,7 +103,7 @@ void read_diaphragms(const JsonValue& root, ModelDraft& draft) {
     diaphragm.name = value.key();
     const auto index = static_cast<std::int32_t>(draft.building.diaphragms.size());
     const auto bind = [&](NodeId node, const JsonValue& name) {
-      std::int32_t& bound = diaphragm_of_node[static_cast<std::size_t>(node.index)];
+      std::int32_t& bound = diaphragm_of_node[index_of(node)];
       if (bound == index) return;
       if (bound >= 0)
         name.fail("the node " + in_quotes(draft.building[node].name) +

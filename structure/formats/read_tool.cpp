@@ -8,7 +8,7 @@ namespace topple::structure::formats {
 
 namespace {
 
-Vec3 place(const JsonValue& value) {
+Vec3 read_position(const JsonValue& value) {
   value.expect_array(3, 3);
   for (const JsonValue coordinate : value) (void)coordinate.in(ranges::place);
   return read_point(value, 1);
@@ -24,21 +24,21 @@ Vec3 vector_within(const JsonValue& value, const NumberRange& length, const char
 Projectile read_projectile(const JsonValue& value) {
   value.only({"from", "velocity", "mass", "radius"});
   Projectile projectile;
-  projectile.from = place(value.require("from"));
+  projectile.from = read_position(value.require("from"));
   projectile.velocity = vector_within(value.require("velocity"), ranges::speed, "m/s");
-  take(value, "mass", projectile.mass, within(ranges::mass));
-  take(value, "radius", projectile.radius, within(ranges::radius));
+  read_optional(value, "mass", projectile.mass, within(ranges::mass));
+  read_optional(value, "radius", projectile.radius, within(ranges::radius));
   return projectile;
 }
 
 WreckingBall read_wrecking_ball(const JsonValue& value) {
   value.only({"anchor", "cable", "from", "mass", "radius"});
   WreckingBall ball;
-  ball.anchor = place(value.require("anchor"));
-  ball.from = place(value.require("from"));
+  ball.anchor = read_position(value.require("anchor"));
+  ball.from = read_position(value.require("from"));
   ball.cable = value.require("cable").in(ranges::length);
-  take(value, "mass", ball.mass, within(ranges::mass));
-  take(value, "radius", ball.radius, within(ranges::radius));
+  read_optional(value, "mass", ball.mass, within(ranges::mass));
+  read_optional(value, "radius", ball.radius, within(ranges::radius));
   const double away = (ball.from - ball.anchor).norm();
   if (away > ball.cable)
     value.require("cable").fail("the ball begins " + std::to_string(away) +
@@ -49,7 +49,7 @@ WreckingBall read_wrecking_ball(const JsonValue& value) {
 ChargeTool read_charge(const JsonValue& value) {
   value.only({"centre", "radius", "strength"});
   ChargeTool charge;
-  charge.centre = place(value.require("centre"));
+  charge.centre = read_position(value.require("centre"));
   charge.radius = value.require("radius").in(ranges::length);
   if (const auto strength = value.find("strength")) {
     strength->expect_array(2, 2);
@@ -212,10 +212,11 @@ WeakenTool ToolReader::read_weaken(const JsonValue& value) const {
     value.fail("nothing is named; accepted: \"groups\", \"members\" or \"joints\" with at least one name");
   if (!value.find("strength") && !value.find("stiffness"))
     value.fail("nothing weakens; accepted: \"strength\", \"stiffness\", or both");
-  take(value, "strength", weaken.strength, within(ranges::strength_factor));
-  take(value, "stiffness", weaken.stiffness, within(ranges::stiffness_factor));
-  take(value, "over", weaken.over, within(ranges::instant));
-  take(value, "stages", weaken.stages, [](const JsonValue& v) { return static_cast<int>(v.whole(1, 1'000'000)); });
+  read_optional(value, "strength", weaken.strength, within(ranges::strength_factor));
+  read_optional(value, "stiffness", weaken.stiffness, within(ranges::stiffness_factor));
+  read_optional(value, "over", weaken.over, within(ranges::instant));
+  read_optional(value, "stages", weaken.stages,
+                [](const JsonValue& v) { return static_cast<int>(v.whole(1, 1'000'000)); });
   return weaken;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "model/index_of.h"
 #include "topple/structure/frame.h"
 
 namespace topple::structure {
@@ -24,7 +25,7 @@ std::vector<MemberId> chain(const Building& building, const std::vector<std::vec
   for (NodeId at = a; at != b;) {
     MemberId next;
     NodeId reached;
-    for (const MemberId id : at_node[static_cast<std::size_t>(at.index)]) {
+    for (const MemberId id : at_node[index_of(at)]) {
       const Member& member = building[id];
       const NodeId other = member.nodes[0] == at ? member.nodes[1] : member.nodes[0];
       const double along = place(other);
@@ -48,8 +49,7 @@ EdgeMembers::EdgeMembers(const Building& building) : members_(4 * building.panel
   if (building.panels.empty()) return;
   std::vector<std::vector<MemberId>> at_node(building.nodes.size());
   for (std::size_t i = 0; i < building.members.size(); ++i)
-    for (const NodeId node : building.members[i].nodes)
-      at_node[static_cast<std::size_t>(node.index)].push_back(MemberId(i));
+    for (const NodeId node : building.members[i].nodes) at_node[index_of(node)].push_back(MemberId(i));
   for (std::size_t p = 0; p < building.panels.size(); ++p)
     for (std::size_t edge = 0; edge < 4; ++edge)
       members_[4 * p + edge] =

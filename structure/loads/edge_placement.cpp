@@ -44,7 +44,7 @@ EdgePlacement::EdgePlacement(const Building& building, const EdgeMembers& edges,
     const NodeId next = nodes[0] == here ? nodes[1] : nodes[0];
     const bool stands = member_stands.empty() || member_stands[index_of(member)];
     const double from = stretches_.empty() ? 0 : stretches_.back().to;
-    const double to = next == last ? length_ : place_of(next);
+    const double to = next == last ? length_ : position_of(next);
     const bool joins_gap = !stands && !stretches_.empty() && !stretches_.back().member.valid();
     if (joins_gap) {
       stretches_.back().last = next;
@@ -57,7 +57,7 @@ EdgePlacement::EdgePlacement(const Building& building, const EdgeMembers& edges,
   if (stretches_.empty()) stretches_.push_back({MemberId(), first, last, 0, length_});
 }
 
-void EdgePlacement::place(const EdgeLoad& load, TributaryLoads& result) const {
+void EdgePlacement::add(const EdgeLoad& load, TributaryLoads& result) const {
   if (load.first.isZero(0) && load.last.isZero(0)) return;
   for (std::size_t i = 0; i < stretches_.size(); ++i) {
     const Stretch& stretch = stretches_[i];
@@ -66,14 +66,14 @@ void EdgePlacement::place(const EdgeLoad& load, TributaryLoads& result) const {
     if (!whole && !(to - from > negligible * length_)) continue;
     const EdgeLoad here = whole ? load : part(load, from, to);
     if (stretch.member.valid())
-      place_on_member(stretch, here, result);
+      add_to_member(stretch, here, result);
     else
-      place_over_gap(i, here, result);
+      add_over_gap(i, here, result);
     if (whole) return;
   }
 }
 
-void EdgePlacement::place_on_member(const Stretch& stretch, const EdgeLoad& load, TributaryLoads& result) const {
+void EdgePlacement::add_to_member(const Stretch& stretch, const EdgeLoad& load, TributaryLoads& result) const {
   const Member& member = building_[stretch.member];
   const Vec3 axis = member.axes.row(0);
   const Vec3 end = building_[member.nodes[0]].position + member.offsets[0];
@@ -87,8 +87,8 @@ void EdgePlacement::place_on_member(const Stretch& stretch, const EdgeLoad& load
     share_by_lever(stretch.first, stretch.from, stretch.last, stretch.to, load, result);
     return;
   }
-  if (a - load.from > slack) place_at_node(stretch.first, part(load, load.from, a), result);
-  if (load.to - b > slack) place_at_node(stretch.last, part(load, b, load.to), result);
+  if (a - load.from > slack) add_to_node(stretch.first, part(load, load.from, a), result);
+  if (load.to - b > slack) add_to_node(stretch.last, part(load, b, load.to), result);
   const bool whole = a - load.from <= slack && load.to - b <= slack;
   const EdgeLoad inside = whole ? load : part(load, a, b);
   // Eccentricity of the edge from the axis: a distributed moment. Its product with the force is quadratic; the linear
@@ -116,8 +116,8 @@ void EdgePlacement::place_on_member(const Stretch& stretch, const EdgeLoad& load
   result.beams.push_back(beam);
 }
 
-void EdgePlacement::place_at_node(NodeId node, const EdgeLoad& load, TributaryLoads& result) const {
-  const double arm = load.from - place_of(node);
+void EdgePlacement::add_to_node(NodeId node, const EdgeLoad& load, TributaryLoads& result) const {
+  const double arm = load.from - position_of(node);
   add_node_load(result, node, load.resultant(), direction_.cross(load.moment() + arm * load.resultant()));
 }
 
@@ -129,7 +129,7 @@ void EdgePlacement::share_by_lever(NodeId a, double at_a, NodeId b, double at_b,
   add_node_load(result, b, to_b, Vec3::Zero());
 }
 
-void EdgePlacement::place_over_gap(std::size_t gap, const EdgeLoad& load, TributaryLoads& result) const {
+void EdgePlacement::add_over_gap(std::size_t gap, const EdgeLoad& load, TributaryLoads& result) const {
   const Stretch &own = stretches_[gap], *before = gap > 0 ? &stretches_[gap - 1] : nullptr,
                 *after = gap + 1 < stretches_.size() ? &stretches_[gap + 1] : nullptr;
   // Neighbouring gaps are one, so whatever is next to a gap stands.

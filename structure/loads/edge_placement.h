@@ -25,7 +25,7 @@ class EdgePlacement {
   /// Appends what the members and nodes get; force and moments are those of `load`. Over a rigid offset it goes to the
   /// node; where a member is missing, by the lever rule to the nodes at the ends of the gap, or to the ends of what
   /// stands when the gap reaches a corner.
-  void place(const EdgeLoad& load, TributaryLoads& result) const;
+  void add(const EdgeLoad& load, TributaryLoads& result) const;
 
  private:
   struct Stretch {
@@ -33,11 +33,11 @@ class EdgePlacement {
     NodeId first, last;
     double from = 0, to = 0;
   };
-  void place_on_member(const Stretch& stretch, const EdgeLoad& load, TributaryLoads& result) const;
-  void place_over_gap(std::size_t gap, const EdgeLoad& load, TributaryLoads& result) const;
-  void place_at_node(NodeId node, const EdgeLoad& load, TributaryLoads& result) const;
+  void add_to_member(const Stretch& stretch, const EdgeLoad& load, TributaryLoads& result) const;
+  void add_over_gap(std::size_t gap, const EdgeLoad& load, TributaryLoads& result) const;
+  void add_to_node(NodeId node, const EdgeLoad& load, TributaryLoads& result) const;
   void share_by_lever(NodeId a, double at_a, NodeId b, double at_b, const EdgeLoad& load, TributaryLoads& result) const;
-  [[nodiscard]] double place_of(NodeId node) const { return direction_.dot(building_[node].position - start_); }
+  [[nodiscard]] double position_of(NodeId node) const { return direction_.dot(building_[node].position - start_); }
 
   const Building& building_;
   Vec3 start_ = Vec3::Zero(), direction_ = Vec3::Zero();

@@ -73,7 +73,7 @@ FrameLoads::FrameLoads(const Building& building, PartLoads loads, const PanelBea
     hand_on_anew(PanelId(p));
     double down = 0;
     for (const Vec3& force : handed_[p].edge_force) down -= force.z();
-    if (!bearings.serves(PanelId(p))) down = -traction(PanelId(p)).z() * panel_area(building, building.panels[p], true);
+    if (!bearings.tracks(PanelId(p))) down = -traction(PanelId(p)).z() * panel_area(building, building.panels[p], true);
     panel_mass_.push_back(down / g);
   }
   whole_panel_mass_ = panel_mass_;
@@ -116,7 +116,7 @@ void FrameLoads::fracture(PanelId panel, const PanelRemains& remains) {
 void FrameLoads::hand_on_anew(PanelId panel) {
   const std::size_t p = index_of(panel);
   ++edges_version_[p];
-  if (!bearings_.serves(panel)) {
+  if (!bearings_.tracks(panel)) {
     hand_on_shell(panel);
     return;
   }
@@ -159,7 +159,7 @@ void FrameLoads::set_gravity(const Vec3& gravity) {
   for (std::size_t m = 0; m < building_.members.size(); ++m) changed_members_.push_back(MemberId(m));
   for (std::size_t n = 0; n < building_.nodes.size(); ++n) changed_nodes_.push_back(NodeId(n));
   for (std::size_t p = 0; p < building_.panels.size(); ++p)
-    if (bearings_.stands(PanelId(p)) || !bearings_.serves(PanelId(p))) hand_on_anew(PanelId(p));
+    if (bearings_.stands(PanelId(p)) || !bearings_.tracks(PanelId(p))) hand_on_anew(PanelId(p));
 }
 
 void FrameLoads::add_load(NodeId node, const Vec6& load) {
@@ -185,7 +185,7 @@ bool FrameLoads::remove_contact(std::int64_t key) {
   return true;
 }
 
-FrameLoads::Changed FrameLoads::take_changed() {
+FrameLoads::Changed FrameLoads::extract_changed() {
   return {sorted_unique(changed_members_), sorted_unique(changed_nodes_)};
 }
 

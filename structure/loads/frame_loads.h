@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "failure/panel_bearings.h"
+#include "model/index_of.h"
 #include "standing/panel_superelements.h"
 #include "topple/structure/standing_frame.h"
 
@@ -31,9 +32,9 @@ class FrameLoads {
              const PanelSuperelements& shells);
 
   // Masses in the combination: downward load over gravity.
-  [[nodiscard]] double mass(MemberId member) const { return member_mass_[static_cast<std::size_t>(member.index)]; }
-  [[nodiscard]] double mass(PanelId panel) const { return panel_mass_[static_cast<std::size_t>(panel.index)]; }
-  [[nodiscard]] double mass(NodeId node) const { return node_mass_[static_cast<std::size_t>(node.index)]; }
+  [[nodiscard]] double mass(MemberId member) const { return member_mass_[index_of(member)]; }
+  [[nodiscard]] double mass(PanelId panel) const { return panel_mass_[index_of(panel)]; }
+  [[nodiscard]] double mass(NodeId node) const { return node_mass_[index_of(node)]; }
 
   void set_gravity(const Vec3& gravity);
   void add_load(NodeId node, const Vec6& load);
@@ -55,7 +56,7 @@ class FrameLoads {
     std::vector<NodeId> nodes;
     [[nodiscard]] bool none() const { return members.empty() && nodes.empty(); }
   };
-  [[nodiscard]] Changed take_changed();
+  [[nodiscard]] Changed extract_changed();
   [[nodiscard]] bool changed() const { return !changed_members_.empty() || !changed_nodes_.empty(); }
 
   /// All that is on a member or node now.
@@ -66,18 +67,14 @@ class FrameLoads {
   [[nodiscard]] Vec6 own_and_handed(NodeId node) const;
   /// What is the part's own: neither handed on by panels nor added by events or contacts.
   [[nodiscard]] std::vector<solver::BeamLoad> own(MemberId member) const;
-  [[nodiscard]] Vec6 own(NodeId node) const {
-    return under_gravity(loads_.nodes[static_cast<std::size_t>(node.index)]);
-  }
-  [[nodiscard]] const TributaryLoads& handed(PanelId panel) const {
-    return handed_[static_cast<std::size_t>(panel.index)];
-  }
-  [[nodiscard]] const Vec6& event_load(NodeId node) const { return events_[static_cast<std::size_t>(node.index)]; }
+  [[nodiscard]] Vec6 own(NodeId node) const { return under_gravity(loads_.nodes[index_of(node)]); }
+  [[nodiscard]] const TributaryLoads& handed(PanelId panel) const { return handed_[index_of(panel)]; }
+  [[nodiscard]] const Vec6& event_load(NodeId node) const { return events_[index_of(node)]; }
   [[nodiscard]] const std::map<std::int64_t, PlacedLoad>& contacts() const { return contacts_; }
   /// Force that a panel hands to one of its edges, contacts on it included, global axes.
   [[nodiscard]] Vec3 edge_force(PanelId panel, int edge) const;
   /// Another number whenever what the panel hands to its edges, or the edges that bear it, may have changed.
-  [[nodiscard]] int edges_version(PanelId panel) const { return edges_version_[static_cast<std::size_t>(panel.index)]; }
+  [[nodiscard]] int edges_version(PanelId panel) const { return edges_version_[index_of(panel)]; }
 
  private:
   [[nodiscard]] solver::BeamLoad under_gravity(MemberId member, solver::BeamLoad load) const;

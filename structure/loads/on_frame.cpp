@@ -82,8 +82,8 @@ solver::LoadSet on_frame(const Building& building, const Frame& frame, const Par
     if (traction.isZero(0) && action.strain == 0) continue;
     for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
       const int shell = mesh.first_shell + static_cast<int>(k);
-      if (const SemiRigidElement* giving = semi_rigid_element(frame, shell))
-        add_element_loads(frame, *giving, traction, action.strain, set);
+      if (const SemiRigidElement* semi_rigid = semi_rigid_element(frame, shell))
+        add_element_loads(frame, *semi_rigid, traction, action.strain, set);
       else
         set.shells.push_back({shell, traction, action.strain});
     }

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "loads/case_loads.h"
+#include "model/index_of.h"
 #include "topple/structure/error.h"
 #include "topple/structure/frame.h"
 
@@ -96,7 +97,7 @@ void for_each_member_load(const Building& building, const Combination& combinati
   for (const auto& [id, factor] : combination.factors) {
     if (factor == 0) continue;
     for (const MemberLoad& load : building[id].members)
-      use(static_cast<std::size_t>(load.member.index), [&] { return member_load(building, load, factor); });
+      use(index_of(load.member), [&] { return member_load(building, load, factor); });
   }
 }
 
@@ -111,13 +112,12 @@ void add_weight_of_panels(const Building& building, const Vec3& acceleration, Pa
 /// But for its loads on members.
 void add_case(const Building& building, const LoadCase& load_case, double factor, PartLoads& loads) {
   for (const PanelLoad& load : load_case.panels) {
-    PanelAction& action = loads.panels[static_cast<std::size_t>(load.panel.index)];
+    PanelAction& action = loads.panels[index_of(load.panel)];
     action.pressure += factor * load.pressure;
     if (load.temperature != 0)
       action.strain += factor * load.temperature * expansion(building[building[load.panel].material]);
   }
-  for (const NodeLoad& load : load_case.nodes)
-    loads.nodes[static_cast<std::size_t>(load.node.index)] += factor * load.load;
+  for (const NodeLoad& load : load_case.nodes) loads.nodes[index_of(load.node)] += factor * load.load;
   for (const Settlement& settlement : load_case.settlements)
     loads.settlements.push_back({settlement.node.index, settlement.component, factor * settlement.value});
 }

@@ -35,8 +35,8 @@ Edge edge_of(const Building& building, const Panel& panel, std::size_t edge) {
 }
 
 /// The force on one edge: on the standing member that is there, else shared between the edge's nodes.
-void place_on_edge(const Building& building, const PanelBearings& bearings, PanelId id, std::size_t edge,
-                   const Vec3& point, const Vec3& force, PlacedLoad& placed) {
+void load_on_edge(const Building& building, const PanelBearings& bearings, PanelId id, std::size_t edge,
+                  const Vec3& point, const Vec3& force, PlacedLoad& placed) {
   placed.edge_force[edge] += force;
   MemberId nearest;
   double distance_from_it = 0;
@@ -108,8 +108,8 @@ double bending_of(const Building& building, const Panel& panel, const Strip& str
   return across * across * strip_compliance(building, panel, strip.x, strip.length(), strip.width);
 }
 
-PlacedLoad place_on_panel(const Building& building, const PanelBearings& bearings, PanelId id, const Vec3& point,
-                          const Vec3& force) {
+PlacedLoad load_on_panel(const Building& building, const PanelBearings& bearings, PanelId id, const Vec3& point,
+                         const Vec3& force) {
   const Panel& panel = building[id];
   const std::array<double, 2> span = spans(building, panel);
   const auto& holds = bearings.holds(id);
@@ -119,8 +119,8 @@ PlacedLoad place_on_panel(const Building& building, const PanelBearings& bearing
   const double length = strip.length();
   PlacedLoad placed;
   placed.panel = id;
-  place_on_edge(building, bearings, id, near, strip.start, (1 - strip.x / length) * force, placed);
-  place_on_edge(building, bearings, id, far, strip.end, strip.x / length * force, placed);
+  load_on_edge(building, bearings, id, near, strip.start, (1 - strip.x / length) * force, placed);
+  load_on_edge(building, bearings, id, far, strip.end, strip.x / length * force, placed);
   placed.bending_compliance = bending_of(building, panel, strip, force);
   return placed;
 }
@@ -144,9 +144,9 @@ double panel_bending_compliance(const Building& building, PanelId id, const Vec3
   return bending_of(building, panel, strip_through(building, panel, span[0] <= span[1] ? 0 : 1, point), direction);
 }
 
-PlacedLoad place_load(const Building& building, const PanelBearings& bearings, const ContactPlace& place,
-                      const Vec3& force, const Vec3& moment) {
-  if (place.panel.valid()) return place_on_panel(building, bearings, place.panel, place.point, force);
+PlacedLoad load_at_place(const Building& building, const PanelBearings& bearings, const ContactPlace& place,
+                         const Vec3& force, const Vec3& moment) {
+  if (place.panel.valid()) return load_on_panel(building, bearings, place.panel, place.point, force);
   PlacedLoad placed;
   if (place.node.valid()) {
     Vec6 load;

@@ -8,8 +8,8 @@ namespace topple::structure {
 /// that hold, across the shorter span where both pairs do; there `bending_compliance` is that of a simply supported
 /// strip, x^2 (L - x)^2 / (3 E' I L) with E' = E/(1 - nu^2) and the effective width 2.4 x (1 - x/L) that slab design
 /// gives a point load at x (not below the thickness, not above the panel's width).
-[[nodiscard]] PlacedLoad place_load(const Building& building, const PanelBearings& bearings, const ContactPlace& place,
-                                    const Vec3& force, const Vec3& moment = Vec3::Zero());
+[[nodiscard]] PlacedLoad load_at_place(const Building& building, const PanelBearings& bearings,
+                                       const ContactPlace& place, const Vec3& force, const Vec3& moment = Vec3::Zero());
 
 /// m/N: by how much a panel that nothing holds bends under a force at a point along its direction, as the strip across
 /// its shorter span does (above). Zero at its edges.

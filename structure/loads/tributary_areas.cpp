@@ -63,7 +63,7 @@ std::vector<TributaryStrip> lower_envelope(const std::vector<Line>& lines, doubl
 }
 
 /// Distance from the edge's first corner at which the line t crosses it.
-double place_on_edge(const PanelOutline& outline, const StripAxes& axes, std::size_t edge, double t) {
+double position_on_edge(const PanelOutline& outline, const StripAxes& axes, std::size_t edge, double t) {
   const double ta = axes.t(outline.at(edge)), tb = axes.t(outline.at(edge + 1));
   return std::clamp((t - ta) / (tb - ta), 0.0, 1.0) * outline.length(edge);
 }
@@ -139,13 +139,14 @@ TributaryAreas strip_areas(const PanelOutline& outline, const Vec2& direction) {
   TributaryAreas shares;
   for (const Slab& slab : cut_into_slabs(outline, axes)) {
     const auto stretch = [&](std::size_t edge) {
-      return ShareCollector(place_on_edge(outline, axes, edge, slab.from), place_on_edge(outline, axes, edge, slab.to));
+      return ShareCollector(position_on_edge(outline, axes, edge, slab.from),
+                            position_on_edge(outline, axes, edge, slab.to));
     };
     ShareCollector low = stretch(slab.edges[0]), high = stretch(slab.edges[1]);
     for (const AreaPoint& point : slab.points) {
       const double t = slab.from + point.fraction * (slab.to - slab.from);
       const auto u_of = [&](std::size_t edge) {
-        return axes.u(outline.at(edge) + place_on_edge(outline, axes, edge, t) * outline.along(edge));
+        return axes.u(outline.at(edge) + position_on_edge(outline, axes, edge, t) * outline.along(edge));
       };
       const double u0 = u_of(slab.edges[0]), u1 = u_of(slab.edges[1]);
       const double ratio = (axes.u(point.point) - u0) / (u1 - u0);
@@ -204,13 +205,13 @@ VerticalAreas vertical_areas(const PanelOutline& outline, std::size_t edge, cons
   VerticalAreas result;
   for (const Slab& slab : cut_into_slabs(outline, axes, {ta, tb})) {
     const bool above = has_breadth && slab.from >= low && slab.to <= high;
-    ShareCollector stretch(above ? place_on_edge(outline, axes, edge, slab.from) : 0,
-                           above ? place_on_edge(outline, axes, edge, slab.to) : outline.length(edge));
+    ShareCollector stretch(above ? position_on_edge(outline, axes, edge, slab.from) : 0,
+                           above ? position_on_edge(outline, axes, edge, slab.to) : outline.length(edge));
     for (const AreaPoint& point : slab.points) {
       const double t = slab.from + point.fraction * (slab.to - slab.from);
       Vec2 lands = outline.middle(edge);
       if (above) {
-        lands = outline.at(edge) + place_on_edge(outline, axes, edge, t) * outline.along(edge);
+        lands = outline.at(edge) + position_on_edge(outline, axes, edge, t) * outline.along(edge);
         stretch.add(point.fraction, point.weight);
       } else {
         result.area_beyond += point.weight;

@@ -107,7 +107,7 @@ class Handing {
     for (const TributaryStrip& share : shares) {
       const EdgeLoad load{share.from * ratio, share.to * ratio, force * (share.first / ratio),
                           force * (share.last / ratio)};
-      place(placement, edge, load);
+      add(placement, edge, load);
     }
   }
 
@@ -123,7 +123,7 @@ class Handing {
     constexpr double rounding = 1e-14;
     if (std::abs(shares.area_beyond) > rounding * scale) {
       const Vec3 even = force * (shares.area_beyond / length);
-      place(placement, edge, {0, length, even, even});
+      add(placement, edge, {0, length, even, even});
     }
     const Vec2 in_plane = axes.topRows<2>() * force, &m = shares.moment_missing;
     const double couple = m.x() * in_plane.y() - m.y() * in_plane.x();
@@ -131,7 +131,7 @@ class Handing {
     const Vec2 along = outline.along(edge);
     const Vec3 across = axes.transpose() * Vec3(-along.y(), along.x(), 0);
     const Vec3 most = across * (6 * couple / (length * length));
-    place(placement, edge, {0, length, -most, most});
+    add(placement, edge, {0, length, -most, most});
   }
 
   TributaryLoads result;
@@ -140,8 +140,8 @@ class Handing {
   [[nodiscard]] EdgePlacement placement_of(std::size_t edge) const {
     return {building_, edges_, panel_, static_cast<int>(edge), stands_};
   }
-  void place(const EdgePlacement& placement, std::size_t edge, const EdgeLoad& load) {
-    placement.place(load, result);
+  void add(const EdgePlacement& placement, std::size_t edge, const EdgeLoad& load) {
+    placement.add(load, result);
     result.edge_force[edge] += load.resultant();
   }
 

@@ -45,7 +45,7 @@ class Mesher {
     if (cells.quadrilaterals.empty())
       throw InputError("panels." + panel.name + ".openings: nothing is left of the panel; accepted: smaller openings");
     PanelMesh& mesh = frame_.meshes[index_of(lines.panel)];
-    const std::vector<int> nodes = place(lines.panel, surface, cells.points, mesh);
+    const std::vector<int> nodes = nodes_of_points(lines.panel, surface, cells.points, mesh);
     mesh.first_shell = static_cast<int>(frame_.model.shells.size());
     for (const auto& cell : cells.quadrilaterals) {
       solver::Shell shell = shell_of(panel);
@@ -68,7 +68,8 @@ class Mesher {
   }
 
   /// The frame's nodes for a panel's points; new ones for those that nobody has.
-  std::vector<int> place(PanelId panel, const PanelSurface& surface, const std::vector<Vec2>& points, PanelMesh& mesh) {
+  std::vector<int> nodes_of_points(PanelId panel, const PanelSurface& surface, const std::vector<Vec2>& points,
+                                   PanelMesh& mesh) {
     std::vector<int> nodes;
     std::array<std::vector<std::pair<double, int>>, 4> on_edge;
     for (const Vec2& point : points) {
@@ -93,7 +94,7 @@ class Mesher {
   int node_on_edge(PanelId panel, std::size_t edge, double along, const Vec3& place) {
     for (const EdgeNode& node : edges_.nodes(panel, edge))
       if (std::abs(node.at - along) < same_point) return node.node;
-    const EdgePlace on_segment = edges_.place(panel, edge, along);
+    const EdgePlace on_segment = edges_.position(panel, edge, along);
     auto& shared = on_segments_[on_segment.segment];
     for (const auto& [at, node] : shared)
       if (std::abs(at - on_segment.at) < same_point) return node;

@@ -60,7 +60,7 @@ PanelEdges::PanelEdges(const Building& building) : nodes_(4 * building.panels.si
   }
 }
 
-EdgePlace PanelEdges::place(PanelId panel, std::size_t edge, double along) const {
+EdgePlace PanelEdges::position(PanelId panel, std::size_t edge, double along) const {
   const auto& all = nodes(panel, edge);
   std::size_t i = 0;
   while (i + 2 < all.size() && all[i + 1].at <= along) ++i;

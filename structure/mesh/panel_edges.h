@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/panel_surface.h"
+#include "model/index_of.h"
 
 namespace topple::structure {
 
@@ -30,10 +31,10 @@ class PanelEdges {
 
   /// In order, both ends included; empty for other panels.
   [[nodiscard]] const std::vector<EdgeNode>& nodes(PanelId panel, std::size_t edge) const {
-    return nodes_[4 * static_cast<std::size_t>(panel.index) + edge];
+    return nodes_[4 * index_of(panel) + edge];
   }
   /// The segment that holds a place of the edge.
-  [[nodiscard]] EdgePlace place(PanelId panel, std::size_t edge, double along) const;
+  [[nodiscard]] EdgePlace position(PanelId panel, std::size_t edge, double along) const;
   /// The other way round; `segment` must be one of the edge's.
   [[nodiscard]] double along(PanelId panel, std::size_t edge, const EdgePlace& place) const;
 

@@ -46,13 +46,13 @@ SegmentLines lines_on_segments(const PanelEdges& edges, const std::vector<PanelL
   for (const PanelLines& lines : all)
     for (std::size_t edge = 0; edge < 4; ++edge)
       for (const double line : lines.at[edge % 2]) {
-        const EdgePlace place = edges.place(lines.panel, edge, PanelSurface::line_of(edge, line));
+        const EdgePlace place = edges.position(lines.panel, edge, PanelSurface::line_of(edge, line));
         add_line(segments[place.segment], place.at);
       }
   return segments;
 }
 
-bool take_lines(const PanelEdges& edges, const SegmentLines& segments, PanelLines& lines) {
+bool adopt_lines(const PanelEdges& edges, const SegmentLines& segments, PanelLines& lines) {
   bool changed = false;
   for (std::size_t edge = 0; edge < 4; ++edge) {
     const auto& nodes = edges.nodes(lines.panel, edge);
@@ -79,7 +79,7 @@ std::vector<PanelLines> panel_lines(const Building& building, const PanelEdges& 
   for (bool changed = true; changed;) {
     changed = false;
     const SegmentLines segments = lines_on_segments(edges, all);
-    for (PanelLines& lines : all) changed = take_lines(edges, segments, lines) || changed;
+    for (PanelLines& lines : all) changed = adopt_lines(edges, segments, lines) || changed;
   }
   return all;
 }

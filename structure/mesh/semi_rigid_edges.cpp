@@ -105,7 +105,7 @@ class SemiRigidEdges {
   }
 
  private:
-  [[nodiscard]] Vec3 place(int node) const { return frame_.model.nodes[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] Vec3 position(int node) const { return frame_.model.nodes[static_cast<std::size_t>(node)]; }
 
   /// Sides of elements, as pairs of nodes, that more than one panel has.
   void find_neighbours() {
@@ -166,7 +166,7 @@ class SemiRigidEdges {
       if (std::none_of(mesh.elements.begin(), mesh.elements.end(),
                        [&](const auto& element) { return has(element, nodes[i]) && has(element, nodes[i + 1]); }))
         continue;
-      const double length = (place(nodes[i + 1]) - place(nodes[i])).norm();
+      const double length = (position(nodes[i + 1]) - position(nodes[i])).norm();
       shares[i] += length / 2;
       shares[i + 1] += length / 2;
       whole += length;
@@ -189,20 +189,20 @@ class SemiRigidEdges {
   /// Gives the panel a side of its own where its joints give.
   void separate(PanelId id, const std::map<int, Pair>& joints) {
     PanelMesh& mesh = frame_.meshes[index_of(id)];
-    std::map<int, int> giving;  // by rigid end
+    std::map<int, int> semi_rigid;  // by rigid end
     for (const auto& [rigid_end, joint] : joints)
-      if (const int index = add_node(rigid_end, joint); index >= 0) giving.emplace(rigid_end, index);
+      if (const int index = add_node(rigid_end, joint); index >= 0) semi_rigid.emplace(rigid_end, index);
     const auto own = [&](int node) {
-      const auto found = giving.find(node);
-      return found == giving.end() ? node : frame_.semi_rigid_nodes[static_cast<std::size_t>(found->second)].node;
+      const auto found = semi_rigid.find(node);
+      return found == semi_rigid.end() ? node : frame_.semi_rigid_nodes[static_cast<std::size_t>(found->second)].node;
     };
     for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
       SemiRigidElement element;
       element.shell = mesh.first_shell + static_cast<int>(k);
       for (std::size_t c = 0; c < 4; ++c)
-        if (const auto found = giving.find(mesh.elements[k][c]); found != giving.end())
-          element.giving[c] = found->second;
-      if (element.giving != std::array{-1, -1, -1, -1}) add_element(element);
+        if (const auto found = semi_rigid.find(mesh.elements[k][c]); found != semi_rigid.end())
+          element.semi_rigid_node[c] = found->second;
+      if (element.semi_rigid_node != std::array{-1, -1, -1, -1}) add_element(element);
       for (int& node : mesh.elements[k]) node = own(node);
     }
     for (auto& edge : mesh.edge_nodes)
@@ -223,25 +223,27 @@ class SemiRigidEdges {
     const auto [translations, held_translations] = basis(joint.of[0]);
     const auto [rotations, held_rotations] = basis(joint.of[1]);
     if (held_translations == 3 && held_rotations == 3) return -1;
-    SemiRigidNode giving;
-    giving.node = static_cast<int>(frame_.model.nodes.size());
-    giving.rigid_end = rigid_end;
-    giving.translations = translations;
-    giving.rotations = rotations;
-    frame_.model.nodes.push_back(place(rigid_end));
-    solver::Support support{giving.node, Vec6::Zero()};
+    SemiRigidNode semi_rigid;
+    semi_rigid.node = static_cast<int>(frame_.model.nodes.size());
+    semi_rigid.rigid_end = rigid_end;
+    semi_rigid.translations = translations;
+    semi_rigid.rotations = rotations;
+    frame_.model.nodes.push_back(position(rigid_end));
+    solver::Support support{semi_rigid.node, Vec6::Zero()};
     support.stiffness.head(held_translations).setConstant(unlimited);
     support.stiffness.segment(3, held_rotations).setConstant(unlimited);
     frame_.model.supports.push_back(support);
-    add_springs(giving, joint, held_translations, held_rotations);
-    frame_.semi_rigid_nodes.push_back(giving);
+    add_springs(semi_rigid, joint, held_translations, held_rotations);
+    frame_.semi_rigid_nodes.push_back(semi_rigid);
     return static_cast<int>(frame_.semi_rigid_nodes.size()) - 1;
   }
 
-  void add_springs(const SemiRigidNode& giving, const Pair& joint, int held_translations, int held_rotations) {
-    solver::Patch patch{{giving.node}, Eigen::MatrixXd::Zero(6, 6)};
-    patch.stiffness.topLeftCorner<3, 3>() = giving.translations.transpose() * joint.of[0].spring * giving.translations;
-    patch.stiffness.bottomRightCorner<3, 3>() = giving.rotations.transpose() * joint.of[1].spring * giving.rotations;
+  void add_springs(const SemiRigidNode& semi_rigid, const Pair& joint, int held_translations, int held_rotations) {
+    solver::Patch patch{{semi_rigid.node}, Eigen::MatrixXd::Zero(6, 6)};
+    patch.stiffness.topLeftCorner<3, 3>() =
+        semi_rigid.translations.transpose() * joint.of[0].spring * semi_rigid.translations;
+    patch.stiffness.bottomRightCorner<3, 3>() =
+        semi_rigid.rotations.transpose() * joint.of[1].spring * semi_rigid.rotations;
     for (int i = 0; i < 6; ++i)
       if (i % 3 < (i < 3 ? held_translations : held_rotations)) {
         patch.stiffness.row(i).setZero();
@@ -253,7 +255,7 @@ class SemiRigidEdges {
   void add_element(SemiRigidElement element) {
     const solver::Shell& shell = frame_.model.shells[static_cast<std::size_t>(element.shell)];
     solver::Superelement::Patch alone;
-    for (const int node : shell.node) alone.nodes.push_back(place(node));
+    for (const int node : shell.node) alone.nodes.push_back(position(node));
     alone.shells = {shell};
     alone.shells.front().node = {0, 1, 2, 3};
     alone.kept = {0, 1, 2, 3};

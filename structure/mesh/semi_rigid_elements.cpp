@@ -11,14 +11,14 @@ std::pair<std::vector<int>, Eigen::MatrixXd> corners_by_freedoms(const Frame& fr
   std::vector<int> nodes(rigid_ends.begin(), rigid_ends.end());
   Eigen::MatrixXd from = Eigen::MatrixXd::Identity(24, 24);
   for (std::size_t c = 0; c < 4; ++c) {
-    if (element.giving[c] < 0) continue;
-    const SemiRigidNode& giving = frame.semi_rigid_nodes[static_cast<std::size_t>(element.giving[c])];
-    nodes.push_back(giving.node);
+    if (element.semi_rigid_node[c] < 0) continue;
+    const SemiRigidNode& semi_rigid = frame.semi_rigid_nodes[static_cast<std::size_t>(element.semi_rigid_node[c])];
+    nodes.push_back(semi_rigid.node);
     from.conservativeResize(24, from.cols() + 6);
     from.rightCols<6>().setZero();
     const auto row = static_cast<Eigen::Index>(6 * c);
-    from.block<3, 3>(row, from.cols() - 6) = giving.translations;
-    from.block<3, 3>(row + 3, from.cols() - 3) = giving.rotations;
+    from.block<3, 3>(row, from.cols() - 6) = semi_rigid.translations;
+    from.block<3, 3>(row + 3, from.cols() - 3) = semi_rigid.rotations;
   }
   return {std::move(nodes), std::move(from)};
 }
@@ -44,11 +44,11 @@ std::vector<solver::JointedShell> jointed_shells(const Frame& frame) {
 }
 
 void make_absolute(const Frame& frame, std::vector<Vec6>& displacements) {
-  for (const SemiRigidNode& giving : frame.semi_rigid_nodes) {
-    Vec6& own = displacements[static_cast<std::size_t>(giving.node)];
-    const Vec6& rigid_end = displacements[static_cast<std::size_t>(giving.rigid_end)];
-    own = (Vec6() << rigid_end.head<3>() + giving.translations * own.head<3>(),
-           rigid_end.tail<3>() + giving.rotations * own.tail<3>())
+  for (const SemiRigidNode& semi_rigid : frame.semi_rigid_nodes) {
+    Vec6& own = displacements[static_cast<std::size_t>(semi_rigid.node)];
+    const Vec6& rigid_end = displacements[static_cast<std::size_t>(semi_rigid.rigid_end)];
+    own = (Vec6() << rigid_end.head<3>() + semi_rigid.translations * own.head<3>(),
+           rigid_end.tail<3>() + semi_rigid.rotations * own.tail<3>())
               .finished();
   }
 }
@@ -91,11 +91,12 @@ void add_element_loads(const Frame& frame, const SemiRigidElement& element, cons
   const auto& nodes = frame.model.shells[static_cast<std::size_t>(element.shell)].node;
   for (std::size_t c = 0; c < 4; ++c) {
     set.nodes.push_back({nodes[c], loads[c]});
-    if (element.giving[c] < 0) continue;
-    const SemiRigidNode& giving = frame.semi_rigid_nodes[static_cast<std::size_t>(element.giving[c])];
+    if (element.semi_rigid_node[c] < 0) continue;
+    const SemiRigidNode& semi_rigid = frame.semi_rigid_nodes[static_cast<std::size_t>(element.semi_rigid_node[c])];
     Vec6 own;
-    own << giving.translations.transpose() * loads[c].head<3>(), giving.rotations.transpose() * loads[c].tail<3>();
-    set.nodes.push_back({giving.node, own});
+    own << semi_rigid.translations.transpose() * loads[c].head<3>(),
+        semi_rigid.rotations.transpose() * loads[c].tail<3>();
+    set.nodes.push_back({semi_rigid.node, own});
   }
   // The strain itself is told for what second order makes of it.
   if (strain != 0) set.shells.push_back({element.shell, Vec3::Zero(), strain});
@@ -106,8 +107,9 @@ std::array<Vec6, 4> element_corner_forces(const Frame& frame, const SemiRigidEle
   const auto& nodes = frame.model.shells[static_cast<std::size_t>(element.shell)].node;
   Eigen::Matrix<double, 24, 1> u;
   for (std::size_t c = 0; c < 4; ++c) {
-    const int node =
-        element.giving[c] < 0 ? nodes[c] : frame.semi_rigid_nodes[static_cast<std::size_t>(element.giving[c])].node;
+    const int node = element.semi_rigid_node[c] < 0
+                         ? nodes[c]
+                         : frame.semi_rigid_nodes[static_cast<std::size_t>(element.semi_rigid_node[c])].node;
     u.segment<6>(static_cast<Eigen::Index>(6 * c)) = solution.displacements[static_cast<std::size_t>(node)];
   }
   const Eigen::Matrix<double, 24, 1> force = element.stiffness * u;

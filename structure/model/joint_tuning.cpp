@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "formats/json/json_writer.h"
+#include "model/index_of.h"
 #include "topple/structure/error.h"
 #include "topple/structure/formats/convert.h"
 
 namespace topple::structure {
 namespace {
 
-std::size_t at(JointId joint) { return static_cast<std::size_t>(joint.index); }
+std::size_t at(JointId joint) { return index_of(joint); }
 
 void require_positive(const JointChange& change, const char* what, double value) {
   if (!(value > 0) || !std::isfinite(value))
@@ -27,7 +28,7 @@ std::string json_of(const std::vector<JointChange>& changes) {
     if (change.strength) writer.key("strength").value(*change.strength);
     for (std::size_t s = 0; s < 7; ++s)
       if (change.capacity[s]) writer.key(sense_names[s]).value(*change.capacity[s]);
-    text += (text.empty() ? "\n    " : ",\n    ") + writer.close('}').take();
+    text += (text.empty() ? "\n    " : ",\n    ") + writer.close('}').release();
   }
   return text;
 }

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "mesh/usual_mesh.h"
+#include "model/index_of.h"
 #include "model/modelling_parts.h"
 #include "model/odd_parts.h"
 #include "model/own_mass.h"
@@ -85,13 +86,13 @@ void find_near_nodes(const Building& building, double tolerance, std::vector<std
 void find_overlapping_members(const Building& building, std::vector<std::string>& warnings) {
   std::vector<std::vector<std::size_t>> at(building.nodes.size());
   for (std::size_t m = 0; m < building.members.size(); ++m)
-    for (const NodeId node : building.members[m].nodes) at[static_cast<std::size_t>(node.index)].push_back(m);
+    for (const NodeId node : building.members[m].nodes) at[index_of(node)].push_back(m);
   constexpr double same_way = 1 - 1e-9;
   Several twice, over;
   const auto away = [&](std::size_t m, std::size_t node) -> Vec3 {
     const Member& member = building.members[m];
     const Vec3 x = member.axes.row(0);
-    return static_cast<std::size_t>(member.nodes[0].index) == node ? x : Vec3(-x);
+    return index_of(member.nodes[0]) == node ? x : Vec3(-x);
   };
   for (std::size_t n = 0; n < at.size(); ++n)
     for (std::size_t i = 0; i < at[n].size(); ++i)
@@ -154,7 +155,7 @@ void find_thick_members(const Building& building, std::vector<std::string>& warn
 /// A case whose combination was forgotten loads nothing; one that is mass serves that alone.
 void find_idle_cases(const Building& building, std::vector<std::string>& warnings) {
   std::vector<bool> used(building.cases.size(), false);
-  const auto use = [&](LoadCaseId id) { used[static_cast<std::size_t>(id.index)] = true; };
+  const auto use = [&](LoadCaseId id) { used[index_of(id)] = true; };
   for (const Combination& combination : building.combinations)
     for (const auto& [id, factor] : combination.factors) use(id);
   for (const auto& [id, factor] : building.masses.loads) use(id);
@@ -266,7 +267,7 @@ std::vector<Bending> bending_of_members(const Building& building) {
   for (const LoadCase& load_case : building.cases) {
     for (const MemberLoad& load : load_case.members) {
       if (load.kind == MemberLoad::Kind::temperature) continue;
-      const auto m = static_cast<std::size_t>(load.member.index);
+      const auto m = index_of(load.member);
       for (const Vec6& at : {load.first, load.last}) {
         const Vec3 force = at.head<3>();
         bend(m, load.frame == LoadFrame::local ? Vec3(building.members[m].axes.transpose() * force) : force);

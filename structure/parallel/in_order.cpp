@@ -17,7 +17,7 @@ int workers_for(std::size_t count, int threads) {
 }
 
 void in_order(std::size_t count, int threads, const std::function<void(std::size_t, std::string& text)>& make,
-              const std::function<void(std::string_view)>& take) {
+              const std::function<void(std::string_view)>& write) {
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   std::condition_variable changed;
@@ -29,7 +29,7 @@ void in_order(std::size_t count, int threads, const std::function<void(std::size
     if (!failure && !own) {
       lock.unlock();  // the others make theirs meanwhile, and wait for this turn to end
       try {
-        take(text);
+        write(text);
       } catch (...) {
         own = std::current_exception();
       }

@@ -1,5 +1,6 @@
 #include "simulation/action_record.h"
 
+#include "model/index_of.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -7,7 +8,7 @@ namespace topple::structure {
 void ActionRecord::give(std::span<const std::pair<JointId, JointCapacity>> capacities) {
   all_.push_back({scene_.step, CapacityChange{{capacities.begin(), capacities.end()}}});
   for (const auto& [joint, capacity] : capacities) {
-    JointCapacity& own = scene_.building.joints[static_cast<std::size_t>(joint.index)].capacity;
+    JointCapacity& own = scene_.building.joints[index_of(joint)].capacity;
     given_.try_emplace(joint, own);
     const JointCapacity before = std::exchange(own, capacity);
     // Hinges are made where a ductile sense has a capacity from the start; one that gets it later breaks at once.
@@ -19,7 +20,7 @@ void ActionRecord::give(std::span<const std::pair<JointId, JointCapacity>> capac
 
 Building ActionRecord::building_at_start() const {
   Building start = scene_.building;
-  for (const auto& [joint, capacity] : given_) start.joints[static_cast<std::size_t>(joint.index)].capacity = capacity;
+  for (const auto& [joint, capacity] : given_) start.joints[index_of(joint)].capacity = capacity;
   return start;
 }
 
@@ -28,7 +29,7 @@ namespace {
 template <class Id>
 void require(const std::vector<Id>& ids, std::size_t count) {
   for (const Id id : ids)
-    if (!id.valid() || static_cast<std::size_t>(id.index) >= count)
+    if (!id.valid() || index_of(id) >= count)
       throw InputError("the snapshot is not of this model: it names parts that the model does not have");
 }
 

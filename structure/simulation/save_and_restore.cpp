@@ -35,7 +35,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   Building start = now.actions.building_at_start();
   if (snapshot.scene != scene_hash(start, now.scene.scenario))
     throw InputError("the snapshot is of another scene: its model, its scenario or what was tuned in them differs");
-  auto listeners = now.log.take_listeners();
+  auto listeners = now.log.extract_listeners();
   std::unique_ptr<State> left = std::move(state_);
   try {
     state_ = std::make_unique<State>(std::move(start), left->scene.scenario, left->scene.options);

@@ -1,5 +1,5 @@
 #pragma once
-// Tells one scene from another, so that what was saved of one is not taken up in another.
+// A hash of building and scenario, by which a snapshot of one scene is refused by another.
 #include <cstdint>
 
 #include "topple/structure/building.h"

@@ -25,7 +25,7 @@ void Simulation::step() {
       return s.scene.timer.stage(static_cast<std::size_t>(stage), work);
     };
     timed(Stage::load, [&] { s.tools.use(); });
-    const auto contacts = timed(Stage::sweep, [&] { return s.sense(); });
+    const auto contacts = timed(Stage::sweep, [&] { return s.sweep_bodies(); });
     timed(Stage::load, [&] { s.load(); });
     timed(Stage::break_, [&] {
       s.strike(contacts);
@@ -50,7 +50,7 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
 Simulation::State::~State() = default;
 
 /// What is told of the impacts of a step is forgotten before the next one's contacts are found.
-std::vector<collision::Contact> Simulation::State::sense() {
+std::vector<collision::Contact> Simulation::State::sweep_bodies() {
   struck.clear();
   release_impulses.clear();
   return sweep.contacts();
@@ -71,7 +71,7 @@ void Simulation::State::load() {
 }
 
 void Simulation::State::record(const std::vector<JointBreak>& breaks) {
-  for (const JointBreak& line : scene.frame->take_yielded()) {
+  for (const JointBreak& line : scene.frame->extract_yielded()) {
     SimulationEvent& event = log.record(SimulationEvent::Kind::joint_yielded, scene.building[line.joint].name);
     event.joint = line;
     event.position = line.position;
@@ -101,7 +101,7 @@ void Simulation::State::substep() {
   scene.timer.within(static_cast<std::size_t>(Stage::move), static_cast<std::size_t>(Stage::break_),
                      [&] { scene.frame->move_on(crack); });
   if (!crack && !scene.frame->has_detached()) return;
-  record(scene.frame->take_breaks());
+  record(scene.frame->extract_breaks());
   release.release();
 }
 

@@ -15,7 +15,7 @@ struct Simulation::State : StageParts {
 
   // Stages of a step.
   /// What awake bodies will touch in this step.
-  [[nodiscard]] std::vector<collision::Contact> sense();
+  [[nodiscard]] std::vector<collision::Contact> sweep_bodies();
   /// Resting contacts load the frame.
   void load();
   void strike(const std::vector<collision::Contact>& contacts);

@@ -52,7 +52,7 @@ class Reader {
     throw InputError(one_line(name_ + ": " + what) + "; accepted: a snapshot that `topple demolish --save` wrote");
   }
   [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
-  [[nodiscard]] std::size_t place() const { return at_; }
+  [[nodiscard]] std::size_t position() const { return at_; }
 
  private:
   const std::string& bytes_;
@@ -223,7 +223,7 @@ Snapshot parse_snapshot(const std::string& bytes, const std::string& name) {
   // Another version may calculate otherwise in the last bit, which a collapse makes visible.
   if (version != TOPPLE_VERSION) reader.fail("was made by version " + version + ", this program is " + TOPPLE_VERSION);
   pass(reader, snapshot);
-  const std::uint64_t sum = checksum(std::string_view(bytes).substr(0, reader.place()));
+  const std::uint64_t sum = checksum(std::string_view(bytes).substr(0, reader.position()));
   std::uint64_t written = 0;
   pass(reader, written);
   if (!reader.at_end()) reader.fail("goes on after its end");

@@ -1,5 +1,5 @@
 #pragma once
-// Sense: shapes are made for what awake bodies may reach in this step, then the collision world sweeps.
+// The sweep stage: shapes are made for what awake bodies may reach in this step, then the collision world sweeps.
 #include <vector>
 
 #include "simulation/debris/break_up.h"

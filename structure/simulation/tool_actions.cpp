@@ -17,12 +17,12 @@ void ToolActions::use() {
   for (; next_event_ < scene_.scenario.events.size() &&
          step_of(scene_.scenario.events[next_event_].at, scene_.scenario.step) <= scene_.step;
        ++next_event_)
-    use_at(scene_.scenario.events[next_event_].at, scene_.scenario.events[next_event_].tool);
-  for (const Tool& tool : std::exchange(asked_, {})) use_at(scene_.time(), tool);
+    utilisation_at(scene_.scenario.events[next_event_].at, scene_.scenario.events[next_event_].tool);
+  for (const Tool& tool : std::exchange(asked_, {})) utilisation_at(scene_.time(), tool);
   use_stages();
 }
 
-void ToolActions::use_at(double instant, const Tool& tool) {
+void ToolActions::utilisation_at(double instant, const Tool& tool) {
   used_at_ = instant;
   std::visit([&](const auto& one) { use(one); }, tool);
 }

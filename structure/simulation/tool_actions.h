@@ -34,7 +34,7 @@ class ToolActions {
     /// Factor after some stages, `last` being the one after all of them.
     [[nodiscard]] double after(int stages, double last) const { return 1 + (last - 1) * stages / tool.stages; }
   };
-  void use_at(double instant, const Tool& tool);
+  void utilisation_at(double instant, const Tool& tool);
   void use(const Projectile& projectile);
   void use(const WreckingBall& ball);
   void use(const CutTool& cut);

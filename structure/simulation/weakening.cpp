@@ -1,5 +1,6 @@
 // What loses strength and stiffness over time, stage by stage: joints through their capacities, members through their
 // moduli. Stages act like events: between them nothing is computed.
+#include "model/index_of.h"
 #include "simulation/step_clock.h"
 #include "simulation/tool_actions.h"
 
@@ -24,7 +25,7 @@ void ToolActions::use_stage(Weakening& weakening) {
   for (const JointId joint : tool.joints) weaken(joint, strength);
   for (const MemberId member : tool.members) {
     if (stiffness == 1 || !scene_.frame->stands(member)) continue;
-    double& factor = stiffness_factors_[static_cast<std::size_t>(member.index)];
+    double& factor = stiffness_factors_[index_of(member)];
     factor *= stiffness;
     scene_.frame->set_stiffness_factor(member, factor);
   }
@@ -34,7 +35,7 @@ void ToolActions::use_stage(Weakening& weakening) {
 void ToolActions::weaken(JointId joint, double change) {
   if (change == 1 || !scene_.building[joint].capacity.breakable || !scene_.frame->intact(joint)) return;
   if (change > 0) {
-    double& factor = scene_.strength_factors[static_cast<std::size_t>(joint.index)];
+    double& factor = scene_.strength_factors[index_of(joint)];
     factor *= change;
     scene_.frame->set_strength_factor(joint, factor);
   } else {

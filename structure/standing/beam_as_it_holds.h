@@ -1,5 +1,5 @@
 #pragma once
-// A standing member's beam without what has broken, whether the statics have taken that over or not.
+// A standing member's beam with its broken ends released, whether the statics know of the breaks yet or not.
 #include "standing/standing_parts.h"
 #include "standing/statics/frame_statics.h"
 

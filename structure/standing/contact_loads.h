@@ -15,7 +15,7 @@ class ContactLoads {
   /// A new load, or another one under its key; the place must stand. True when that changes what acts.
   bool set(const ContactLoad& load) {
     all_[load.key] = load;
-    return loads_.set_contact(load.key, response_.place(load.place, load.force, load.moment));
+    return loads_.set_contact(load.key, response_.load_at(load.place, load.force, load.moment));
   }
   bool remove(std::int64_t key) {
     all_.erase(key);
@@ -33,9 +33,9 @@ class ContactLoads {
     drop_if([gone](const ContactPlace& place) { return place.panel == gone; });
   }
   /// The panel hands on what lies on it another way.
-  void place_again(PanelId panel) {
+  void update_loads_on(PanelId panel) {
     for (const auto& [key, load] : all_)
-      if (load.place.panel == panel) (void)loads_.set_contact(key, response_.place(load.place, load.force));
+      if (load.place.panel == panel) (void)loads_.set_contact(key, response_.load_at(load.place, load.force));
   }
 
   /// In order of key.

@@ -5,6 +5,7 @@
 #include "mesh/frame_mesh.h"
 #include "mesh/semi_rigid_edges.h"
 #include "model/panel_area.h"
+#include "standing/member_beam.h"
 #include "standing/panel_superelement.h"
 
 namespace topple::structure {
@@ -24,22 +25,9 @@ solver::AxialAction axial_action(AxialAction action) {
 
 solver::Beam make_beam(const Building& building, MemberId id) {
   const Member& member = building[id];
-  const Section& section = building[member.section];
-  const Material& material = building[member.material];
-  solver::Beam beam;
+  solver::Beam beam = elastic_beam(building, id);
   beam.node = {member.nodes[0].index, member.nodes[1].index};
-  beam.offset = member.offsets;
-  beam.axes = member.axes;
-  beam.length = member.length;
-  beam.youngs_modulus = material.youngs_modulus;
-  beam.shear_modulus = material.shear_modulus;
-  beam.area = section.area;
-  beam.shear_area_y = section.shear_area_y;
-  beam.shear_area_z = section.shear_area_z;
-  beam.Iy = section.Iy;
-  beam.Iz = section.Iz;
-  beam.J = section.J;
-  beam.density = material.density;
+  beam.density = building[member.material].density;
   for (int end = 0; end < 2; ++end)
     beam.end_stiffness[static_cast<std::size_t>(end)] = building[building.joint(id, end)].stiffness;
   beam.axial = axial_action(member.axial);

@@ -89,13 +89,13 @@ FrameResponse::FrameResponse(const Sources& sources)
       critical_energies_(static_cast<std::size_t>(sources.statics.components()), -1.0),
       certain_masses_(critical_energies_.size()) {}
 
-PlacedLoad FrameResponse::place(const ContactPlace& place, const Vec3& force, const Vec3& moment) const {
-  if (place.panel.valid() && !from_.parts.bearings.serves(place.panel)) return place_on_shell(place, force);
-  return place_load(building_, from_.parts.bearings, place, force, moment);
+PlacedLoad FrameResponse::load_at(const ContactPlace& place, const Vec3& force, const Vec3& moment) const {
+  if (place.panel.valid() && !from_.parts.bearings.tracks(place.panel)) return load_on_shell(place, force);
+  return load_at_place(building_, from_.parts.bearings, place, force, moment);
 }
 
 /// What the panel's nodes get of a force on it; its own give is that with its nodes held.
-PlacedLoad FrameResponse::place_on_shell(const ContactPlace& place, const Vec3& force) const {
+PlacedLoad FrameResponse::load_on_shell(const ContactPlace& place, const Vec3& force) const {
   const PanelSuperelement& shell = *from_.shells.of(place.panel);
   PanelLoading loading;
   loading.forces.push_back({place.point, force});
@@ -137,7 +137,7 @@ FrameResponse::CoupledResponse FrameResponse::couple(std::span<const ContactPlac
     std::vector<FrameStatics::ResponseLoads> forces;
     for (const Eigen::Index i : own) {
       const auto at = static_cast<std::size_t>(i);
-      placed.push_back(this->place(places[at], directions[at]));
+      placed.push_back(this->load_at(places[at], directions[at]));
       forces.push_back(response_loads(placed.back()));
     }
     const std::vector<FrameStatics::Response> responses =
@@ -170,14 +170,14 @@ FrameResponse::Demands FrameResponse::response_demands(int c, const Shape& shape
   for (JointId joint : from_.components.joints[static_cast<std::size_t>(c)]) {
     const Joint& own = building_[joint];
     // What lies on members hands on its own load alone.
-    if (!own.member.valid() && own.panel != placed.panel && from_.parts.bearings.serves(own.panel)) continue;
+    if (!own.member.valid() && own.panel != placed.panel && from_.parts.bearings.tracks(own.panel)) continue;
     if (!from_.parts.standing(joint)) continue;
     Vec6 demand = Vec6::Zero();
     if (own.member.valid()) {
       if (own.member != member_read) end_forces = response.end_forces(own.member);
       member_read = own.member;
       demand = member_joint_demand(end_forces, own.end);
-    } else if (!from_.parts.bearings.serves(own.panel)) {
+    } else if (!from_.parts.bearings.tracks(own.panel)) {
       if (own.panel != panel_read) {
         PanelLoading unit;
         if (own.panel == placed.panel) unit.forces.push_back(placed.on_shell);
@@ -265,7 +265,7 @@ void FrameResponse::add_inertia_of_nodes(int c, std::span<const Shape> shapes, E
 
 /// A panel moves with its corners; of a shell all nodes are known.
 double FrameResponse::panel_mean_product(PanelId panel, const Shape& a, const Shape& b) const {
-  if (from_.parts.bearings.serves(panel)) {
+  if (from_.parts.bearings.tracks(panel)) {
     double mean = 0;
     for (const NodeId node : building_[panel].nodes)
       mean += a.response.displacement(node).head<3>().dot(b.response.displacement(node).head<3>()) / 4;
@@ -297,7 +297,7 @@ double FrameResponse::panel_mean_product(PanelId panel, const Shape& a, const Sh
 }
 
 double FrameResponse::displacement_along(const ContactPlace& place, const Vec3& direction) const {
-  const PlacedLoad placed = this->place(place, direction);
+  const PlacedLoad placed = this->load_at(place, direction);
   double sum = 0;
   for (const auto& [member, load] : placed.members) {
     const Vec3 force = building_[member].axes.transpose() * load.first.head<3>();

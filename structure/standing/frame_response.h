@@ -31,7 +31,8 @@ class FrameResponse {
   explicit FrameResponse(const Sources& sources);
 
   /// A force on a standing part as loads on members and nodes.
-  [[nodiscard]] PlacedLoad place(const ContactPlace& place, const Vec3& force, const Vec3& moment = Vec3::Zero()) const;
+  [[nodiscard]] PlacedLoad load_at(const ContactPlace& place, const Vec3& force,
+                                   const Vec3& moment = Vec3::Zero()) const;
   /// As StandingFrame's of the same names.
   [[nodiscard]] CoupledResponse respond(std::span<const ContactPlace> places, std::span<const Vec3> directions) const {
     return couple(places, directions, false);
@@ -55,7 +56,7 @@ class FrameResponse {
   };
   using Demands = std::vector<std::pair<JointId, Vec6>>;
 
-  [[nodiscard]] PlacedLoad place_on_shell(const ContactPlace& place, const Vec3& force) const;
+  [[nodiscard]] PlacedLoad load_on_shell(const ContactPlace& place, const Vec3& force) const;
   [[nodiscard]] CoupledResponse couple(std::span<const ContactPlace> places, std::span<const Vec3> directions,
                                        bool near) const;
   [[nodiscard]] FrameStatics::ResponseLoads response_loads(const PlacedLoad& placed) const;

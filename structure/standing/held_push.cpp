@@ -20,7 +20,7 @@ solver::Beam HeldPush::beam(MemberId member) const { return beam_as_it_holds(fro
 
 HeldPush::Pushed HeldPush::push(const ContactPlace& place, const Vec3& direction) const {
   Pushed pushed;
-  pushed.placed = from_.response.place(place, direction);
+  pushed.placed = from_.response.load_at(place, direction);
   for (const auto& [member, load] : pushed.placed.members) {
     const auto same = [id = member](const auto& one) { return one.first == id; };
     auto own = std::find_if(pushed.members.begin(), pushed.members.end(), same);
@@ -65,7 +65,7 @@ void HeldPush::add_demands(const Pushed& pushed, Eigen::Index place, StandingFra
   }
   const PanelId panel = pushed.placed.panel;
   if (!panel.valid()) return;
-  if (!from_.parts.bearings.serves(panel)) {
+  if (!from_.parts.bearings.tracks(panel)) {
     const PanelSuperelement& shell = *from_.shells.of(panel);
     const std::vector<Vec6> held(shell.nodes(), Vec6::Zero());
     const std::array<Vec6, 4> demands =

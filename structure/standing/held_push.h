@@ -1,6 +1,6 @@
 #pragma once
-// A push on what stands that is faster than its motion: the part that is struck gives way with its nodes held, its own
-// joints bear it, and its nodes take what it hands to them.
+// The response to a push that is over before nodes move. The struck part bends between its nodes, which are held; its
+// joints bear the push, and its nodes get the impulse.
 #include <span>
 
 #include "standing/frame_response.h"

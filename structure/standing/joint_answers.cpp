@@ -122,7 +122,7 @@ void JointAnswers::read_edges(int c, bool slow, bool in_motion) {
     const Joint& own = state_.building[joint];
     if (own.panel != panel_read) {
       of_edges = nullptr;
-      if (!state_.parts.bearings.serves(own.panel)) {
+      if (!state_.parts.bearings.tracks(own.panel)) {
         of_edges = &(shell = edge_demands(own.panel, in_motion));
       } else if (edge_loads_.changed(own.panel)) {
         of_edges = &edge_loads_.read(own.panel);
@@ -148,7 +148,7 @@ Vec6 JointAnswers::solved_demand(JointId joint) const {
 
 std::array<Vec6, 4> JointAnswers::edge_demands(PanelId panel, bool in_motion) const {
   const PanelBearings& bearings = state_.parts.bearings;
-  if (!bearings.serves(panel)) {
+  if (!bearings.tracks(panel)) {
     const Panel& own = state_.building[panel];
     return shell_edge_demands(
         *state_.shells.of(panel), bearings, panel,

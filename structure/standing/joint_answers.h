@@ -33,7 +33,7 @@ class JointAnswers {
   void read(int component, bool slow);
   /// What edges of panels bear in the motion now.
   void read_edges_in_motion(int component);
-  /// The largest uses are remembered, for largest_utilisation_so_far().
+  /// The largest utilisations are remembered, for largest_utilisation_so_far().
   void remember(int component);
   /// Uses after a sudden loss count from references that have moved.
   void references_moved(int component);

@@ -9,17 +9,17 @@ namespace topple::structure {
 double JointAnswers::Watch::read(JointId joint, const Vec6& demand) {
   if (!state_.building[joint].capacity.breakable || !state_.parts.standing(joint)) return 0;
   slow_ ? state_.joints.set_slow_demand(joint, demand) : state_.joints.set_demand(joint, demand);
-  return state_.joints.felt(joint).value;
+  return state_.joints.amplified(joint).value;
 }
 
-double JointAnswers::Watch::member_use(MemberId member, const solver::Vec12& forces) {
+double JointAnswers::Watch::member_utilisation(MemberId member, const solver::Vec12& forces) {
   double use = 0;
   for (int end = 0; end < 2; ++end)
     use = std::max(use, read(state_.building.joint(member, end), member_joint_demand(forces, end)));
   return use;
 }
 
-double JointAnswers::Watch::membrane_use(PanelId membrane, const std::array<Vec6, 4>& corner_forces) {
+double JointAnswers::Watch::membrane_utilisation(PanelId membrane, const std::array<Vec6, 4>& corner_forces) {
   edge_loads_.set_corner_forces(membrane, corner_forces);
   const std::array<Vec6, 4>& demands = edge_loads_.read(membrane);
   double use = 0;

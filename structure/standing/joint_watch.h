@@ -9,8 +9,8 @@ class JointAnswers::Watch : public MemberWatch {
   /// `slow`: only what comes on slowly changed since the answer was whole.
   explicit Watch(JointAnswers& answers, bool slow = false)
       : state_(answers.state_), edge_loads_(answers.edge_loads_), slow_(slow) {}
-  double member_use(MemberId member, const solver::Vec12& end_forces) override;
-  double membrane_use(PanelId membrane, const std::array<Vec6, 4>& corner_forces) override;
+  double member_utilisation(MemberId member, const solver::Vec12& end_forces) override;
+  double membrane_utilisation(PanelId membrane, const std::array<Vec6, 4>& corner_forces) override;
   double member_growth(MemberId member, const solver::Vec12& root) override;
   double membrane_growth(PanelId membrane, const std::array<Vec6, 4>& root) override;
 

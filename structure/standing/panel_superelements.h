@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "model/index_of.h"
 #include "standing/panel_superelement.h"
 
 namespace topple::structure {
@@ -28,9 +29,7 @@ class PanelSuperelements {
   }
 
   /// Null for a panel that is one element, or none.
-  [[nodiscard]] PanelSuperelement* of(PanelId panel) const {
-    return of_panel_[static_cast<std::size_t>(panel.index)].get();
-  }
+  [[nodiscard]] PanelSuperelement* of(PanelId panel) const { return of_panel_[index_of(panel)].get(); }
   /// Works out the superelement of a whole membrane of this shape: all that is left to do when one of them breaks is
   /// what its hole changes.
   void add(PanelId panel) {
@@ -39,7 +38,7 @@ class PanelSuperelements {
     if (!whole) whole = std::make_unique<PanelSuperelement>(building_, panel, operators_);
   }
   PanelSuperelement& make(PanelId panel) {
-    auto& own = of_panel_[static_cast<std::size_t>(panel.index)];
+    auto& own = of_panel_[index_of(panel)];
     if (own) return *own;
     const auto like = building_[panel].openings.empty() ? whole_.find(shape(panel)) : whole_.end();
     own = like == whole_.end() ? std::make_unique<PanelSuperelement>(building_, panel, operators_)

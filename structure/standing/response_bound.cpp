@@ -71,7 +71,7 @@ double FrameResponse::critical_energy(int c) const {
     const Joint& own = building_[joint];
     if (own.member.valid())
       least = std::min(least, critical_energy(joint));
-    else if (!from_.parts.bearings.serves(own.panel))
+    else if (!from_.parts.bearings.tracks(own.panel))
       least = 0;  // a supported edge of a shell: no bound is known
   }
   return least;
@@ -90,7 +90,7 @@ const std::vector<double>& FrameResponse::certain_masses(int c) const {
     for (NodeId node : building_[member].nodes) mass[index_of(node)] += std::max(0.0, from_.loads.mass(member)) / 6;
   }
   for (PanelId panel : from_.components.panels[static_cast<std::size_t>(c)])
-    if (from_.parts.stands(panel) && from_.parts.bearings.serves(panel))
+    if (from_.parts.stands(panel) && from_.parts.bearings.tracks(panel))
       for (NodeId node : building_[panel].nodes) mass[index_of(node)] += from_.loads.mass(panel) / 4;
   for (NodeId node : from_.statics.nodes(c))
     if (from_.parts.stands(node)) mass[index_of(node)] += from_.loads.mass(node);
@@ -140,7 +140,7 @@ FrameResponse::Demands FrameResponse::near_demands(std::span<const Shape> shapes
     const solver::Vec12 end_forces = response.end_forces(member);
     for (int end = 0; end < 2; ++end) add(building_.joint(member, end), member_joint_demand(end_forces, end));
   }
-  if (placed.panel.valid() && from_.parts.bearings.serves(placed.panel))
+  if (placed.panel.valid() && from_.parts.bearings.tracks(placed.panel))
     for (int edge = 0; edge < 4; ++edge)
       add(building_.joint(placed.panel, edge), handed_edge_demand(building_, from_.parts.bearings, placed.panel, edge,
                                                                   placed.edge_force[static_cast<std::size_t>(edge)]));

@@ -1,6 +1,6 @@
 #pragma once
-// What shell elements make of tractions, displacements and mass, worked out once for each shape of element: all are
-// linear, and the elements of a mesh are mostly alike.
+// Operators of shell elements (loads of a unit traction, mass, stress resultants), computed once for each shape of
+// element: all are linear, and the elements of a mesh are mostly alike.
 #include <array>
 #include <map>
 #include <vector>

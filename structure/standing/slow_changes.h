@@ -16,7 +16,7 @@ class SlowChanges {
 
   /// Stiffness has changed since the last answer.
   void soften() { softened_ = true; }
-  [[nodiscard]] bool take_softened() { return std::exchange(softened_, false); }
+  [[nodiscard]] bool extract_softened() { return std::exchange(softened_, false); }
   /// Solves what changed slowly; what changed suddenly before is read as such.
   void lay();
 

@@ -127,7 +127,7 @@ void StandingFrame::set_strength_factor(JointId joint, double factor) {
   if (!state.building[joint].capacity.breakable || state.joints.strength(joint) == factor) return;
   if (!(factor > 0)) return break_joint(joint, BreakCause::tool);
   state.joints.set_strength(joint, factor);
-  state.statics.forget_uses(state.components.of(joint));
+  state.statics.forget_utilisations(state.components.of(joint));
   state.check_again(state.components.of(joint));
   state.response.forget_bounds(state.components.of(joint));
   state.pending = true;
@@ -168,7 +168,7 @@ std::vector<JointBreak> StandingFrame::settle(int generations) {
   state.settle(generations);
   state.breaks.start_generations();
   state.account.lines_are_out();
-  return state.breaks.take();
+  return state.breaks.extract();
 }
 
 void StandingFrame::State::settle(int most) {
@@ -179,9 +179,9 @@ void StandingFrame::State::settle(int most) {
   pending = generations.run(most);
 }
 
-std::vector<JointBreak> StandingFrame::take_yielded() { return state_->yielding.take_yielded(); }
+std::vector<JointBreak> StandingFrame::extract_yielded() { return state_->yielding.extract_yielded(); }
 bool StandingFrame::has_detached() const { return state_->departures.any(); }
-std::vector<Detached> StandingFrame::take_detached() { return state_->departures.take(); }
+std::vector<Detached> StandingFrame::extract_detached() { return state_->departures.extract(); }
 
 StandingFrame::UnitResponse StandingFrame::respond(const ContactPlace& place, const Vec3& direction) const {
   return std::move(respond({&place, 1}, {&direction, 1}).places.front());

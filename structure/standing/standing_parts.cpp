@@ -10,14 +10,14 @@ StandingParts::StandingParts(const Building& building)
 
 bool StandingParts::holds(JointId joint) const {
   const Joint& own = building_[joint];
-  if (own.member.valid() || !bearings.serves(own.panel)) return segments.holds(joint);
+  if (own.member.valid() || !bearings.tracks(own.panel)) return segments.holds(joint);
   return bearings.holds(own.panel)[static_cast<std::size_t>(own.end)];
 }
 
 int StandingParts::label(JointId joint) const {
   const Joint& own = building_[joint];
   if (own.member.valid()) return segments.label(own.member);
-  if (!bearings.serves(own.panel)) return segments.label(own.panel);
+  if (!bearings.tracks(own.panel)) return segments.label(own.panel);
   if (!bearings.stands(own.panel)) return -1;
   const auto member = bearings.bearing_member(own.panel);
   return member ? segments.label(*member) : segments.label(bearings.bearing_node(own.panel));

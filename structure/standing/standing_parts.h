@@ -16,7 +16,7 @@ class StandingParts {
   [[nodiscard]] bool stands(MemberId member) const { return segments.label(member) >= 0; }
   [[nodiscard]] bool stands(NodeId node) const { return segments.label(node) >= 0; }
   [[nodiscard]] bool stands(PanelId panel) const {
-    return bearings.serves(panel) ? bearings.stands(panel) : segments.label(panel) >= 0;
+    return bearings.tracks(panel) ? bearings.stands(panel) : segments.label(panel) >= 0;
   }
   [[nodiscard]] bool holds(JointId joint) const;
   /// Of the segment that the joint's part belongs to, -1 when that left.

@@ -45,7 +45,7 @@ std::optional<PanelStress> StandingFrame::stress(PanelId panel) const {
   const bool in_motion = state.moves(state.components.of(panel));
   const Panel& own = state.building[panel];
   if (const PanelSuperelement* shell = state.shells.of(panel)) {
-    const PanelLoading all = state.parts.bearings.serves(panel) ? PanelLoading{} : state.loading(panel);
+    const PanelLoading all = state.parts.bearings.tracks(panel) ? PanelLoading{} : state.loading(panel);
     return shell->worst_stress(
         in_motion ? node_displacements(own, *state.motion) : node_displacements(own, state.statics), all);
   }

@@ -26,7 +26,7 @@ struct StandingFrame::State : StructuralState {
   void leave_small_displacements(int component);
   void read_motion(int component);
   void check_rest(int component);
-  [[nodiscard]] std::map<int, std::vector<Eigen::Index>> places_by_component(const HeldResponse& pushed) const;
+  [[nodiscard]] std::map<int, std::vector<Eigen::Index>> contacts_by_component(const HeldResponse& pushed) const;
   void add_hinges(int component, HeldResponse& answer);
 
   BreakLog breaks;  ///< of the settle() or impact that runs

@@ -84,7 +84,7 @@ Detached::Motion StructuralState::motion_of(const Detached& part) const {
 }
 
 void StructuralState::write_loads() {
-  const FrameLoads::Changed changed = loads.take_changed();
+  const FrameLoads::Changed changed = loads.extract_changed();
   if (motion && !changed.none()) motion->update_masses();
   for (MemberId member : changed.members) {
     if (!stands(member)) continue;

@@ -17,14 +17,8 @@
 namespace topple::structure {
 
 namespace {
-/// Two states on the way closer than this (relative) are one: symmetric joints differ by rounding.
-constexpr double same_place = 1e-9;
-/// A moment that changes by less than this share of the capacity over the whole way does not change.
-constexpr double no_change = 1e-9;
-/// Of the largest rotation in a mechanism: below it a hinge does not turn.
-constexpr double no_turn = 1e-6;
-/// Events on one way, for each hinge; a way that has more is going round in circles, and what would yield next breaks.
-constexpr int most_events = 8;
+/// Of a hinge's rotation limit: one that turns by less over the whole way does not turn.
+constexpr double least_turn = 1e-6;
 /// Where the base lies closer than this (of the way) to the static answer, that is no direction to go on in.
 constexpr double least_way = 1e-6;
 }  // namespace
@@ -32,14 +26,14 @@ constexpr double least_way = 1e-6;
 /// What happens first on the way: at `at` the hinges begin to yield or the joints break. Nothing: at is infinite.
 struct YieldingWay::NextEvent {
   double at = unlimited;
-  std::vector<PlasticHinge*> flowing;
+  std::vector<PlasticHinge*> yielding;
   std::vector<JointId> breaking;
 
-  void take(double place, PlasticHinge* hinge, JointId joint) {
+  void consider(double place, PlasticHinge* hinge, JointId joint) {
     if (place > at + same_place * std::max(1.0, at)) return;
     if (place < at - same_place * std::max(1.0, at)) *this = {};
     at = std::min(at, place);
-    if (hinge != nullptr) flowing.push_back(hinge);
+    if (hinge != nullptr) yielding.push_back(hinge);
     if (joint.valid()) breaking.push_back(joint);
   }
 };
@@ -173,16 +167,16 @@ YieldingWay::NextEvent YieldingWay::find_next_event(int c) {
     if (hinge.yields) {
       const double turning = direction * (plastic_rotation_in_answer(hinge) - hinge.plastic_rotation);
       const double left = hinge.limit - std::copysign(hinge.plastic_rotation, turning * hinge.plastic_rotation);
-      if (std::abs(turning) > no_turn * hinge.limit)
-        next.take(std::max(0.0, left / std::abs(turning)), nullptr, hinge.joint);
+      if (std::abs(turning) > least_turn * hinge.limit)
+        next.consider(std::max(0.0, left / std::abs(turning)), nullptr, hinge.joint);
       continue;
     }
     const double bears = capacity(hinge), from = demand_in_base(hinge),
                  change = direction * (from_.joints.demand(hinge.joint)(hinge.axis) - from);
     if (std::abs(from) > (1 + no_change) * bears)
-      next.take(0, &hinge, {});
+      next.consider(0, &hinge, {});
     else if (std::abs(change) > no_change * bears)
-      next.take(std::max(0.0, (bears - std::copysign(from, from * change)) / std::abs(change)), &hinge, {});
+      next.consider(std::max(0.0, (bears - std::copysign(from, from * change)) / std::abs(change)), &hinge, {});
   }
   for (JointId joint : from_.components.joints[static_cast<std::size_t>(c)]) {
     if (!from_.parts.standing(joint)) continue;
@@ -191,7 +185,7 @@ YieldingWay::NextEvent YieldingWay::find_next_event(int c) {
     // Convex along the way: borne at both ends is borne between them.
     if (next.at < unlimited && borne(joint, from) && borne(joint, from + next.at * change)) continue;
     const double at = failing_force(from_.joints.brittle_capacity(joint), from_.joints.strength(joint), from, change);
-    if (at < unlimited) next.take(std::max(0.0, at), nullptr, joint);
+    if (at < unlimited) next.consider(std::max(0.0, at), nullptr, joint);
   }
   std::sort(next.breaking.begin(), next.breaking.end());
   next.breaking.erase(std::unique(next.breaking.begin(), next.breaking.end()), next.breaking.end());
@@ -209,9 +203,9 @@ YieldingWay::End YieldingWay::follow(int c, std::vector<JointId>& breaking) {
     }
     NextEvent next = find_next_event(c);
     const bool measured = from_.sudden != 1 && !path.returning;
-    const double energy = measured && (path.active || !next.flowing.empty()) ? ductile_.difference_energy(c) : 0;
+    const double energy = measured && (path.active || !next.yielding.empty()) ? ductile_.difference_energy(c) : 0;
     const double end = end_of_way(c, energy);
-    if (!path.active && (next.flowing.empty() || next.at > end)) return End::unyielding;
+    if (!path.active && (next.yielding.empty() || next.at > end)) return End::unyielding;
     if (next.at > end) {
       if (end_reached(c, end, energy, measured)) return End::resting;
       continue;
@@ -222,13 +216,13 @@ YieldingWay::End YieldingWay::follow(int c, std::vector<JointId>& breaking) {
     path.active = true;
     move_base(c, at, energy);
     if (limit)
-      for (const PlasticHinge* hinge : next.flowing) next.breaking.push_back(hinge->joint);
+      for (const PlasticHinge* hinge : next.yielding) next.breaking.push_back(hinge->joint);
     if (!next.breaking.empty()) {
       hold_all_again(c);  // which of them turn on is seen once these are broken
       breaking.insert(breaking.end(), next.breaking.begin(), next.breaking.end());
       return End::breaking;
     }
-    let_flow(c, next, breaking);
+    start_yielding(c, next, breaking);
     if (!breaking.empty()) {
       hold_all_again(c);
       return End::breaking;
@@ -259,11 +253,11 @@ void YieldingWay::give_up_surplus(int c) {
 
 /// Hinges at their capacity begin to turn. Those that share a member or a node one after the other: the first may be
 /// enough for both.
-void YieldingWay::let_flow(int c, const NextEvent& next, std::vector<JointId>& breaking) {
+void YieldingWay::start_yielding(int c, const NextEvent& next, std::vector<JointId>& breaking) {
   const PlasticPath& path = ductile_.path(c);  // one that comes to a stop may turn it round
   std::vector<MemberId> members;
   std::vector<NodeId> nodes;
-  for (PlasticHinge* hinge : next.flowing) {
+  for (PlasticHinge* hinge : next.yielding) {
     const Joint& own = building_[hinge->joint];
     const NodeId node = building_[own.member].nodes[static_cast<std::size_t>(own.end)];
     if (std::find(members.begin(), members.end(), own.member) != members.end()) continue;
@@ -299,104 +293,6 @@ bool YieldingWay::turns_out_alone(PlasticHinge& hinge, double held) {
   hold_all_again(from_.components.of(hinge.joint));
   give_up_surplus(from_.components.of(hinge.joint));
   return false;
-}
-
-/// The member as a mechanism carries it, without strain.
-MemberShape YieldingWay::carried_along(MemberId member, const FrameMechanism& mechanism) const {
-  const auto& nodes = building_[member].nodes;
-  return MemberShape(from_.statics.beam(member), solver::Vec12::Zero(),
-                     from_.account.now().rigid_ends(member, mechanism.motion[index_of(nodes[0])],
-                                                    mechanism.motion[index_of(nodes[1])]),
-                     {});
-}
-
-/// `resisted`: what they hold does against a unit of the mechanism, J; `largest` of one of them.
-YieldingWay::Turning YieldingWay::turning_in(int c, const FrameMechanism& mechanism, double& resisted,
-                                             double& largest) {
-  Turning turning;
-  double fastest = 0;
-  for (PlasticHinge& hinge : ductile_.hinges(c)) {
-    if (!hinge.yields || !from_.parts.standing(hinge.joint)) continue;
-    const Joint& own = building_[hinge.joint];
-    const MemberShape shape = carried_along(own.member, mechanism);
-    const double rate = shape.rigid_end(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis);
-    turning.emplace_back(&hinge, rate);
-    resisted += rate * hinge.held;
-    fastest = std::max(fastest, std::abs(rate));
-    largest = std::max(largest, std::abs(rate * hinge.held));
-  }
-  for (NodeId node : from_.statics.nodes(c)) {
-    const Vec6& motion = mechanism.motion[index_of(node)];
-    if (from_.parts.stands(node)) fastest = std::max(fastest, motion.tail<3>().cwiseAbs().maxCoeff());
-  }
-  std::erase_if(turning, [&](const auto& one) { return std::abs(one.second) <= no_turn * fastest; });
-  return turning;
-}
-
-/// J, of a unit of the mechanism times `sign`.
-double YieldingWay::work_of_loads(int c, const FrameMechanism& mechanism, double sign) const {
-  double loaded = 0;
-  for (NodeId node : from_.statics.nodes(c))
-    if (from_.node_solved[index_of(node)]) loaded += sign * from_.loads.on(node).dot(mechanism.motion[index_of(node)]);
-  for (MemberId member : from_.statics.members(c))
-    if (from_.parts.stands(member) && !from_.applied[index_of(member)].empty())
-      loaded += sign * carried_along(member, mechanism).work(from_.applied[index_of(member)], Vec3::UnitZ()).sum();
-  return loaded;
-}
-
-/// Until one has turned too far, or, where less work is done than resisted, the surplus is used up: true then. `gain`:
-/// surplus from a unit of the mechanism, J.
-bool YieldingWay::turn_on(int c, const Turning& turning, const FrameMechanism& mechanism, double sign, double gain) {
-  PlasticPath& path = ductile_.path(c);
-  double amount = unlimited;
-  for (const auto& [hinge, rate] : turning)
-    amount = std::min(
-        amount, std::max(0.0, (hinge->limit - std::copysign(hinge->plastic_rotation, hinge->plastic_rotation * rate)) /
-                                  std::abs(rate)));
-  const bool arrested = gain < 0 && path.surplus < -gain * amount;
-  if (arrested) amount = path.surplus / -gain;
-  for (const auto& [hinge, rate] : turning) {
-    hinge->plastic_rotation += amount * rate;
-    from_.account.change(building_[hinge->joint].member).dissipate(amount * rate * hinge->held);
-  }
-  ductile_.move_base(c, mechanism.motion, sign * amount);
-  path.surplus = std::max(0.0, path.surplus + gain * amount);
-  return arrested;
-}
-
-/// A mechanism of hinges: they turn under what they hold, while the loads do more work or less, until one has turned
-/// too far or the surplus is used up. False when the mechanism is none of theirs.
-std::optional<std::vector<JointId>> YieldingWay::swing(int c, const FrameMechanism& mechanism) {
-  PlasticPath& path = ductile_.path(c);
-  double resisted = 0, largest = 0;
-  Turning turning = turning_in(c, mechanism, resisted, largest);
-  if (turning.empty()) return std::nullopt;
-  const double sign = resisted < 0 ? -1 : 1;
-  bool back = false;
-  for (auto& [hinge, rate] : turning) {
-    rate *= sign;
-    if (rate * hinge->held < -no_change * largest) {
-      unload(*hinge);
-      back = true;
-    }
-  }
-  if (back || ++path.events > most_events * (2 + static_cast<int>(ductile_.hinges(c).size()))) {
-    if (!back) hold_all_again(c);
-    return std::vector<JointId>();
-  }
-  const double gain = work_of_loads(c, mechanism, sign) - std::abs(resisted);
-  if (turn_on(c, turning, mechanism, sign, gain)) {
-    hold_all_again(c);
-    give_up_surplus(c);
-    return std::vector<JointId>();
-  }
-  std::vector<JointId> turned_out;
-  for (const auto& [hinge, rate] : turning)
-    if (std::abs(hinge->plastic_rotation) >= (1 - same_place) * hinge->limit) turned_out.push_back(hinge->joint);
-  std::sort(turned_out.begin(), turned_out.end());
-  turned_out.erase(std::unique(turned_out.begin(), turned_out.end()), turned_out.end());
-  hold_all_again(c);
-  return turned_out;
 }
 
 }  // namespace topple::structure

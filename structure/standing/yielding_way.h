@@ -1,5 +1,6 @@
 #pragma once
-// The way of a component whose joints turn before they break, from one state of rest to the next: see yielding_way.cpp.
+// The way of a component whose joints turn before they break, from one state of rest to the next: see yielding_way.cpp,
+// and plastic_mechanism.cpp for mechanisms of hinges.
 #include <functional>
 #include <optional>
 #include <utility>
@@ -63,9 +64,17 @@ class YieldingWay {
   /// The joints that are to break; nothing when the mechanism is none of theirs.
   [[nodiscard]] std::optional<std::vector<JointId>> swing(int component, const FrameMechanism& mechanism);
   /// Senses of joints that came to their capacity for the first time, handed out once.
-  [[nodiscard]] std::vector<JointBreak> take_yielded() { return std::exchange(yielded_, {}); }
+  [[nodiscard]] std::vector<JointBreak> extract_yielded() { return std::exchange(yielded_, {}); }
 
  private:
+  /// Two states on the way closer than this (relative) are one: symmetric joints differ by rounding.
+  static constexpr double same_place = 1e-9;
+  /// A moment that changes by less than this share of the capacity over the whole way does not change.
+  static constexpr double no_change = 1e-9;
+  /// Events on one way, for each hinge; a way that has more is going round in circles, and what would yield next
+  /// breaks.
+  static constexpr int most_events = 8;
+
   struct NextEvent;
   [[nodiscard]] NextEvent find_next_event(int component);
   [[nodiscard]] double end_of_way(int component, double energy);
@@ -73,7 +82,7 @@ class YieldingWay {
   [[nodiscard]] double demand_in_base(const PlasticHinge& hinge) const;
   bool turn_back(int component);
   [[nodiscard]] bool end_reached(int component, double end, double energy, bool measured);
-  void let_flow(int component, const NextEvent& next, std::vector<JointId>& breaking);
+  void start_yielding(int component, const NextEvent& next, std::vector<JointId>& breaking);
   void give_up_surplus(int component);
   /// Yielding hinges that turn in a mechanism, each with its turn per unit of it.
   using Turning = std::vector<std::pair<PlasticHinge*, double>>;

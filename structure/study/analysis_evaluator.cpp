@@ -38,7 +38,7 @@ double worst_loss_use(const LossResult& losses) {
   double worst = 0;
   for (const MemberLoss& loss : losses.losses)
     for (const LossState& state : loss.states)
-      worst = std::max(worst, state.stands() ? state.use.value : std::numeric_limits<double>::infinity());
+      worst = std::max(worst, state.stands() ? state.utilisation.value : std::numeric_limits<double>::infinity());
   return worst;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "model/index_of.h"
 #include "model/own_mass.h"
 #include "model/panel_area.h"
 #include "study/debris_field.h"
@@ -58,7 +59,7 @@ Fallen fallen_parts(const Simulation& simulation) {
   return fallen;
 }
 
-double largest_standing_use(const Simulation& simulation) {
+double largest_standing_utilisation(const Simulation& simulation) {
   const Building& building = simulation.building();
   double largest = 0;
   for (std::size_t j = 0; j < building.joints.size(); ++j) {
@@ -80,7 +81,7 @@ std::string parts_of(const Simulation& simulation) {
   bits.resize(joints + building.joints.size());
   for (const SimulationEvent& event : simulation.events())
     if (event.kind == SimulationEvent::Kind::joint_broke && event.joint.joint.valid())
-      bits[joints + static_cast<std::size_t>(event.joint.joint.index)] = true;
+      bits[joints + index_of(event.joint.joint)] = true;
   return parts_text(bits);
 }
 
@@ -133,7 +134,7 @@ class CollapseEvaluator : public SampleEvaluator {
     if (name == "debris_outside") return debris.outside;
     if (name == "charges") return of_sample_.charges();
     if (name == "weight") return fallen_parts(simulation).all_mass;
-    const double use = largest_standing_use(simulation);
+    const double use = largest_standing_utilisation(simulation);
     if (name == "largest_use") return use;
     return use > 0 ? 1 / use : none;  // reserve_factor
   }

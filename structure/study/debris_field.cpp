@@ -16,7 +16,7 @@ double distance_to_edge(const Vec2& a, const Vec2& b, const Vec2& point) {
   return (point - a - at * along).norm();
 }
 
-std::vector<Vec3> places_of(const Building& building, const BodyView& body) {
+std::vector<Vec3> positions_of(const Building& building, const BodyView& body) {
   std::vector<Vec3> places;
   const auto moved = [&](const Vec3& offset) {
     places.emplace_back(body.pose.position + body.pose.orientation * offset);
@@ -100,7 +100,7 @@ DebrisField debris_field(const Simulation& simulation) {
     std::vector<Vec2> places;
     std::size_t beyond = 0;
     double farthest = 0;
-    for (const Vec3& at : places_of(simulation.building(), body)) {
+    for (const Vec3& at : positions_of(simulation.building(), body)) {
       top = std::max(top, at.z());
       const Vec2& place = places.emplace_back(at.head<2>());
       const double distance = distance_outside(was, place);

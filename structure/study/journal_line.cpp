@@ -14,7 +14,7 @@ namespace study {
 
 std::string number_text(double number) {
   JsonWriter writer;
-  return writer.value(number).take();
+  return writer.value(number).release();
 }
 
 std::string hexadecimal(std::uint64_t value) {
@@ -82,7 +82,7 @@ std::string journal_line(const StudyTask& task, const Sample& sample) {
   } else {
     line.key("failed").value(sample.failed);
   }
-  std::string text = line.take();
+  std::string text = line.release();
   const std::uint64_t check = check_of(task, text);
   return text.append(before_check).append(study::hexadecimal(check)).append(after_check);
 }

@@ -69,7 +69,7 @@ StudyJournal::StudyJournal(const StudyTask& task, const std::filesystem::path& f
         throw InputError(file.string() + ", line " + std::to_string(line_number) +
                          ": it is damaged, or of another study; accepted: the journal of this study, its files and "
                          "this version of the program");
-      take(std::move(*sample));
+      keep(std::move(*sample));
       whole = end + 1;
     }
   }
@@ -88,7 +88,7 @@ StudyJournal::StudyJournal(const StudyTask& task, const std::filesystem::path& f
 }
 
 /// One that failed may have been tried again further on.
-void StudyJournal::take(Sample sample) {
+void StudyJournal::keep(Sample sample) {
   if (!has_[sample.number]) {
     has_[sample.number] = true;
     found_.push_back(std::move(sample));

@@ -32,8 +32,8 @@ class SharedCounter {
   SharedCounter(const SharedCounter&) = delete;
   SharedCounter& operator=(const SharedCounter&) = delete;
   ~SharedCounter() { ::munmap(next_, sizeof *next_); }
-  std::size_t take() { return (*next_)++; }
-  [[nodiscard]] std::size_t taken() const { return *next_; }
+  std::size_t next() { return (*next_)++; }
+  [[nodiscard]] std::size_t given_out() const { return *next_; }
 
  private:
   std::atomic<std::size_t>* next_;
@@ -81,7 +81,7 @@ void end_with_parent(pid_t parent) {
   std::signal(SIGTERM, SIG_DFL);
   try {
     const auto evaluator = task.make_evaluator();
-    for (std::size_t i = counter.take(); i < count; i = counter.take()) {
+    for (std::size_t i = counter.next(); i < count; i = counter.next()) {
       send(pipe, {Message::Kind::begun, i, 0, 0}, {});
       Sample sample = make(i);
       evaluate(*evaluator, sample);
@@ -213,7 +213,7 @@ void run_in_processes(const StudyTask& task, const StudyRun& run, std::size_t co
       Sample sample = make(*at);
       sample.failed = how;
       hand_on(std::move(sample));
-      if (counter.taken() < count) all.emplace_back(task, count, make, counter);
+      if (counter.given_out() < count) all.emplace_back(task, count, make, counter);
     }
   }
 }

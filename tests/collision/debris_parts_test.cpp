@@ -98,7 +98,7 @@ TEST_CASE("debris: a first touch comes at gap over speed") {
   CHECK(found[0].normal.isApprox(Vec3(1, 0, 0), 1e-9));
 }
 
-TEST_CASE("debris: who is struck while it sleeps wakes, and as many behind it as the blow moves noticeably") {
+TEST_CASE("debris: who is struck while it sleeps wakes, and as many behind it as the impact moves noticeably") {
   for (const double speed : {0.15, 0.5, 5.0}) {
     Boxes boxes;
     for (int i = 0; i < 10; ++i) boxes.add({1.0 * i, 0, 0});

@@ -110,7 +110,7 @@ TEST_CASE("what is held still loads what it lies on with its weight, and so does
   OnTable two;
   REQUIRE(two.world->awake_count() == 0);
   CHECK(-two.load.sum().z() == Approx(2 * kWeight).epsilon(0.02));
-  // Laid on without a blow: what comes is felt through those that were held.
+  // Laid on without an impact: what comes is felt through those that were held.
   const BodyId third = two.world->add_body(block(4.25));
   two.pass(20);
   CHECK_FALSE(two.world->state(two.lower).asleep);
@@ -154,7 +154,7 @@ TEST_CASE("what is held still falls when what bears it is taken away, one upon t
   CHECK(two.world->state(two.upper).velocity.z() < -6 * kGravity * kStep);
 }
 
-TEST_CASE("what is held still takes a blow as a free body, in the step in which it comes") {
+TEST_CASE("what is held still takes an impact as a free body, in the step in which it comes") {
   OnTable two;
   REQUIRE(two.world->awake_count() == 0);
   BodyDescription ball = ball_body(0.3, 200, {-1.05, 0, 3.75});

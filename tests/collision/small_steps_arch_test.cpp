@@ -71,7 +71,7 @@ double least_thickness(int count) {
 }
 
 /// Whether its crown is where it was after ten seconds. Its weight comes on over two seconds, so that the forces
-/// between the blocks follow: put there at once it falls a little before they do, and that is a blow.
+/// between the blocks follow: put there at once it falls a little before they do, and that is an impact.
 bool arch_stands(int count, double ratio) {
   const auto world = make_small_steps_world();
   const double radius = 5, thickness = ratio * radius, wide = 1, friction = 0.8;

@@ -209,7 +209,7 @@ TEST_CASE("small steps: of two balls that hang side by side, each swings out as 
     world->add_cable(cable);
   }
   const double fell = length * (1 - std::cos(angle));
-  // From blow to blow, of a pendulum of this amplitude; the first comes after half of that.
+  // From impact to impact, of a pendulum of this amplitude; the first comes after half of that.
   const double half = M_PI * std::sqrt(length / kGravity) * (1 + angle * angle / 16 + 11 * std::pow(angle, 4) / 3072);
   const auto highest = [&](int ball, double seconds) {
     double height = 0;

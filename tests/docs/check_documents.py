@@ -6,7 +6,7 @@
 - Code that a page shows as taken from a file (```cpp FILE) stands in that file, comments and white space apart.
 - Classes and functions that begin a row of a table stand in the files that the row names; so do the tests that it quotes.
 - No test has a semicolon in its name: CTest would take what stands before it for the name, find no such test, and pass.
-- Sentences of the map and of the pages are short, and use the field's words.
+- Sentences of the map and of the pages are short, and use the field's words; so do the sources.
 - The drawn flows are those that scripts/flow_pictures draws, and the files that they name are there.
 """
 import pathlib
@@ -161,7 +161,7 @@ def check_sentences(document, most_long=0.10, long=30, middle=13):
         say(document, f"half of its sentences have more than {statistics.median(lengths):.0f} words; at most {middle}")
 
 
-# Words of the code that the field calls otherwise (docs/glossary.md). In code they may still stand.
+# Words of ours for what the field calls otherwise (docs/glossary.md): in documents, and in sources of the libraries and programs.
 not_said = r"blows?|ladder|rungs?|restricted answers?|standing factor|hubs?|knocks?|giving edges?|felt contacts?|scatter map|hand over"
 
 
@@ -169,6 +169,15 @@ def check_words(document):
     prose = re.sub(r'`[^`]*`|"[^"\n]*"', "", without_code(document.read_text()))
     for word in sorted(set(re.findall(rf"\b(?:{not_said})\b", prose, re.I))):
         say(document, f"says \"{word}\" in its text; docs/glossary.md has the field's word")
+
+
+def check_words_of_sources():
+    for top in ("solver", "collision", "fracture", "structure", "apps"):
+        for source in sorted((root / top).rglob("*")):
+            if source.suffix not in (".h", ".cpp"):
+                continue
+            for word in sorted(set(re.findall(rf"\b(?:{not_said}|hand_over)\b", source.read_text(), re.I))):
+                say(source, f"says \"{word}\"; docs/glossary.md has the field's word")
 
 
 def check_flows():
@@ -193,6 +202,7 @@ for page in (map_page, *pages):
     check_words(page)
 check_names(root / "docs" / "glossary.md")
 check_test_names()
+check_words_of_sources()
 check_flows()
 if map_page.read_text().count("\n") > 120:
     say(map_page, "is longer than 120 lines: what it tells belongs on a page")

@@ -73,7 +73,7 @@ TEST_CASE("a propped cantilever without shear deformation bears 5/8 and 3/8 of a
   CHECK(s.reactions[0](4) == Approx(-q * L * L / 8).epsilon(tolerance));
 }
 
-TEST_CASE("a released end gives the propped cantilever as well, its hub free to turn") {
+TEST_CASE("a released end gives the propped cantilever as well, its node free to turn") {
   FrameModel model = single_beam(L, fixed(), fixed());
   model.beams[0].shear_area_y = model.beams[0].shear_area_z = 0;
   model.beams[0].end_stiffness[1](4) = 0;

@@ -215,7 +215,7 @@ class ChangingFrame {
 struct ChangeTally {
   long answers = 0, mechanisms = 0, splits = 0, in_warning_band = 0;
   double difference = 0;  ///< the largest, over what is allowed
-  ReanalysisCounters rungs;
+  ReanalysisCounters work;
 };
 
 /// Solves, compares with a fresh analysis, and lets go of what moves until the rest stands. Empty, or what is wrong.
@@ -255,10 +255,10 @@ inline std::string follow(ChangingFrame& frame, int changes, ChangeTally& tally)
     (void)frame.standing->solve();  // nothing changed
   }
   const ReanalysisCounters& c = frame.standing->counters();
-  tally.rungs.unchanged += c.unchanged;
-  tally.rungs.load_solves += c.load_solves;
-  tally.rungs.low_rank += c.low_rank;
-  tally.rungs.refactorisations += c.refactorisations;
+  tally.work.unchanged += c.unchanged;
+  tally.work.load_solves += c.load_solves;
+  tally.work.low_rank += c.low_rank;
+  tally.work.refactorisations += c.refactorisations;
   return "";
 }
 

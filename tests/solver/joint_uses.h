@@ -9,10 +9,10 @@
 
 namespace topple::test {
 
-class JointUses : public solver::UseWatch {
+class JointUtilisations : public solver::UtilisationWatch {
  public:
   /// Capacities per beam: of axial force, shears, torsion, moments.
-  JointUses(const solver::Reanalysis& standing, std::vector<solver::Vec6> capacity)
+  JointUtilisations(const solver::Reanalysis& standing, std::vector<solver::Vec6> capacity)
       : use(capacity.size(), {0, 0}), reads(capacity.size(), 0), standing_(standing), capacity_(std::move(capacity)) {}
 
   static double of(const solver::Vec6& force, const solver::Vec6& capacity) {
@@ -29,13 +29,13 @@ class JointUses : public solver::UseWatch {
     return result;
   }
 
-  double beam_use(int beam) override {
+  double beam_utilisation(int beam) override {
     const auto i = static_cast<std::size_t>(beam);
     ++reads[i];
     use[i] = ends(standing_, beam);
     return std::max(use[i][0], use[i][1]);
   }
-  double shell_use(int) override { return 0; }
+  double shell_utilisation(int) override { return 0; }
   double beam_growth(int beam, const double (&root)[12]) override {
     double growth = 0;
     for (Eigen::Index k = 0; k < 12; ++k)

@@ -1,4 +1,4 @@
-// Random sequences of changes on random frames: whatever rung the ladder takes, the answer is that of a fresh analysis
+// Random sequences of changes on random frames: whatever strategy is chosen, the answer is that of a fresh analysis
 // of the changed model, and what is a mechanism there is one here.
 #include <catch2/catch.hpp>
 
@@ -16,8 +16,8 @@ TEST_CASE("random changes give the answers of fresh analyses, and no mechanism i
   CHECK(tally.answers == 12 * 60);
   CHECK(tally.mechanisms > 10);
   CHECK(tally.splits > 5);
-  CHECK(tally.rungs.low_rank > 300);
-  CHECK(tally.rungs.refactorisations > 12);
+  CHECK(tally.work.low_rank > 300);
+  CHECK(tally.work.refactorisations > 12);
 }
 
 TEST_CASE("breaking and restoring a joint returns to the very same answer") {

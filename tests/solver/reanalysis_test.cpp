@@ -61,7 +61,7 @@ TEST_CASE("nothing changed: nothing is computed") {
   CHECK(c.standing.counters().solves == before.solves);
 }
 
-TEST_CASE("changed loads are solved over the standing factor") {
+TEST_CASE("changed loads are solved over the base factor") {
   Case c;
   (void)c.standing.solve();
   const auto before = c.standing.counters();
@@ -284,7 +284,7 @@ TEST_CASE("the response to one more load is that load's alone, and reciprocal") 
 }
 
 TEST_CASE(
-    "a response leaves out a moment on a hub that nothing keeps from turning, as if it had turned out of the way") {
+    "a response leaves out a moment on a node that nothing keeps from turning, as if it had turned out of the way") {
   FrameModel model =
       single_beam(2, components(rigid, rigid, rigid, rigid, rigid, rigid), components(0, rigid, rigid, 0, 0, 0));
   model.beams[0].end_stiffness[1].tail<3>().setZero();

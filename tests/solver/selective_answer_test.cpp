@@ -1,4 +1,4 @@
-// Restricted answers: what they leave out cannot change which joint breaks next, and their bounds hold.
+// Selective answers: what they leave out cannot change which joint breaks next, and their bounds hold.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -45,7 +45,7 @@ struct Collapsing {
       capacity.push_back((least + share(random)) *
                          components(axial, shear, shear, 10 * bending, 2 * bending, 2 * bending));
     }
-    uses = std::make_unique<JointUses>(*in_part, capacity);
+    uses = std::make_unique<JointUtilisations>(*in_part, capacity);
   }
 
   void lose(Joint joint) {
@@ -76,7 +76,7 @@ struct Collapsing {
 
   std::mt19937 random;
   std::unique_ptr<Reanalysis> in_part, in_full;
-  std::unique_ptr<JointUses> uses;
+  std::unique_ptr<JointUtilisations> uses;
 };
 
 /// Largest difference of displacements, relative to the largest.
@@ -157,7 +157,7 @@ TEST_CASE("no use in what was left out exceeds its bound, nor its energy") {
   CHECK(left > 10000);
 }
 
-TEST_CASE("what is asked for makes a restricted answer whole, to the error of a full one") {
+TEST_CASE("what is asked for makes a selective answer whole, to the error of a full one") {
   Collapsing c(4, 12, 5, 2.0);
   REQUIRE(c.in_part->solve(*c.uses).stable);
   for (int beam : {7, 150, 301}) {

@@ -90,7 +90,7 @@ TEST_CASE("a node that nothing holds is named") {
   CHECK(message.find("node 2") != std::string::npos);
 }
 
-TEST_CASE("the hub of a truss node may turn, in any direction in space, unless a moment acts on it") {
+TEST_CASE("a truss node may turn, in any direction in space, unless a moment acts on it") {
   // A tripod of bars with hinges at every end.
   FrameModel model;
   model.nodes = {Vec3(0, 0, 4), Vec3(3, 0.3, 0), Vec3(-2, 2, 0.1), Vec3(-1, -3, 0)};

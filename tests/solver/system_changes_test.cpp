@@ -116,7 +116,7 @@ TEST_CASE("a part that left is held and joined to nothing that stands, and what 
   CHECK(corrected.bottomRightCorner(left, left).ldlt().isPositive());
 }
 
-TEST_CASE("a change is taken once, and again only when it is another") {
+TEST_CASE("a change is extracted once, and again only when it is another") {
   FrameSystem system(braced_tower());
   system.assemble();
   SystemChanges changes(system);
@@ -127,13 +127,13 @@ TEST_CASE("a change is taken once, and again only when it is another") {
     REQUIRE(changes.compare());
   };
   soften(0.5);
-  CHECK_FALSE(changes.taken(place));
-  CHECK(changes.take(place) != nullptr);
-  CHECK(changes.take(place) == nullptr);
+  CHECK_FALSE(changes.extracted(place));
+  CHECK(changes.extract_changed(place) != nullptr);
+  CHECK(changes.extract_changed(place) == nullptr);
   soften(0.5);
-  CHECK(changes.take(place) == nullptr);
+  CHECK(changes.extract_changed(place) == nullptr);
   soften(0.25);
-  CHECK(changes.take(place) != nullptr);
+  CHECK(changes.extract_changed(place) != nullptr);
 }
 
 }  // namespace topple::test

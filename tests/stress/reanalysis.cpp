@@ -1,5 +1,5 @@
 // stress_reanalysis [FRAMES [CHANGES [FIRST]]]: random frames (1000, numbered from FIRST) that change at random (100
-// times each), every answer of the ladder against a fresh analysis, every mechanism against its verdict. One process
+// times each), every answer against a fresh analysis, every mechanism against its verdict. One process
 // for each core takes every so manieth frame.
 #include <sys/wait.h>
 #include <unistd.h>
@@ -53,10 +53,10 @@ void add(const Share& one, Share& sum) {
   t.splits += one.tally.splits;
   t.in_warning_band += one.tally.in_warning_band;
   t.difference = std::max(t.difference, one.tally.difference);
-  t.rungs.unchanged += one.tally.rungs.unchanged;
-  t.rungs.load_solves += one.tally.rungs.load_solves;
-  t.rungs.low_rank += one.tally.rungs.low_rank;
-  t.rungs.refactorisations += one.tally.rungs.refactorisations;
+  t.work.unchanged += one.tally.work.unchanged;
+  t.work.load_solves += one.tally.work.load_solves;
+  t.work.low_rank += one.tally.work.low_rank;
+  t.work.refactorisations += one.tally.work.refactorisations;
 }
 
 /// One process, whose share comes back through a pipe.
@@ -114,10 +114,10 @@ int main(int argc, char** argv) {
   std::printf("%ld frames, %d changes each\n", sum.frames, changes);
   print_row("frames of 5,000 freedoms or more", count(sum.large), frames / 10);
   print_row("answers compared with fresh ones", count(t.answers), static_cast<long>(frames) * changes);
-  print_row("rung 0, nothing changed", t.rungs.unchanged, 1000);
-  print_row("rung 1, only loads", t.rungs.load_solves, 1000);
-  print_row("rung 2, low-rank corrections", t.rungs.low_rank, 1000);
-  print_row("rung 3, new factors", t.rungs.refactorisations, 1000);
+  print_row("nothing changed", t.work.unchanged, 1000);
+  print_row("only loads", t.work.load_solves, 1000);
+  print_row("low-rank corrections", t.work.low_rank, 1000);
+  print_row("new factors", t.work.refactorisations, 1000);
   print_row("mechanisms", count(t.mechanisms), 1000);
   print_row("of them parts that split off", count(t.splits), 1000);
   std::printf("  %-44s %9ld\n", "states in the warning band", t.in_warning_band);

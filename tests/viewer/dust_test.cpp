@@ -58,7 +58,7 @@ TEST_CASE("a puff spreads, thins out and is gone") {
   const std::vector<DustPuff> puffs{{7, 2.0, {1, 2, 3}, 1.5F}};
   const auto at = [&](double time) {
     std::vector<DustInstance> discs;
-    place_dust(puffs, time, glm::dvec3(0), discs);
+    append_dust(puffs, time, glm::dvec3(0), discs);
     return discs;
   };
   CHECK(at(1.9).empty());

@@ -72,8 +72,8 @@ TEST_CASE("a fire is seen where it burns, as long as it burns, and its smoke for
 TEST_CASE("flames rise and go out, and smoke is carried by the wind") {
   const std::vector<DustPuff> licks{{3, 1.0, {0, 0, 2}, 0.8F, Kind::fire}};
   std::vector<DustInstance> young, old;
-  place_dust(licks, 1.3, glm::dvec3(0), young);
-  place_dust(licks, 4.0, glm::dvec3(0), old);
+  append_dust(licks, 1.3, glm::dvec3(0), young);
+  append_dust(licks, 4.0, glm::dvec3(0), old);
   REQUIRE(young.size() > 1);
   REQUIRE(old.size() == 1);  // smoke alone
   CHECK(young[0].colour >> 24U == 255);
@@ -99,7 +99,7 @@ TEST_CASE("a charge that goes off shows a ball that glows, by the cube root of t
   CHECK(sizes[1] == Approx(2 * sizes[0]));
   const auto glow = [](double age) {
     std::vector<DustInstance> discs;
-    place_dust({{0, 0.0, {0, 0, 2}, 2.0F, Kind::blast}}, age, glm::dvec3(0), discs);
+    append_dust({{0, 0.0, {0, 0, 2}, 2.0F, Kind::blast}}, age, glm::dvec3(0), discs);
     return discs.at(0).colour >> 24U;
   };
   CHECK(glow(0.01) > 200);

@@ -91,7 +91,7 @@ TEST_CASE("a joint that a charge has weakened is told with the capacity that it 
   person.driver.apply(charge);
   person.run(0.1);
   SnapshotTaker taker;
-  const Snapshot moment = taker.take(person.session.simulation(), nullptr);
+  const Snapshot moment = taker.capture(person.session.simulation(), nullptr);
   const FrameAnswer::Joint& told = moment.answer->joints[static_cast<std::size_t>(joint.index)];
   REQUIRE(told.intact);
   CHECK(told.strength == Approx(0.4).epsilon(1e-6));  // single precision

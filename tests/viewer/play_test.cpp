@@ -168,7 +168,7 @@ TEST_CASE("thermite cuts a joint when its time is over, and throws sparks until 
   CHECK_FALSE(run.session.simulation().frame().intact(joint));
 }
 
-TEST_CASE("the score weighs what is down, where it lies, and how many blows it took") {
+TEST_CASE("the score weighs what is down, where it lies, and how many actions it took") {
   Run run;
   const auto& building = *run.scene.building;
   CHECK(score_of(building, *run.driver.moment().later, 0).points() == 0);
@@ -183,7 +183,7 @@ TEST_CASE("the score weighs what is down, where it lies, and how many blows it t
   const Score one = score_of(building, moment, 1);
   CHECK(one.down == Approx(mass / mass_of(building)).epsilon(1e-9));
   run.go(1);
-  CHECK(run.driver.moment().later->blows == 1);
+  CHECK(run.driver.moment().later->actions == 1);
   // A post that lies 100 m away is not on its own ground.
   moment.bodies.push_back({});
   moment.bodies.back().rest_centre = (building[post.nodes[0]].position + building[post.nodes[1]].position) / 2;
@@ -194,7 +194,7 @@ TEST_CASE("the score weighs what is down, where it lies, and how many blows it t
   CHECK(score_of(building, moment, 1).inside == 1);
   Score all{1, 0.9, 3};
   CHECK(all.points() == 72);  // 90 less two tenths
-  all.blows = 40;
+  all.actions = 40;
   CHECK(all.points() == 0);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using namespace topple::viewer;
 
-DustPuff blow(double time, double distance, Look look = Look::concrete, float mass = 300, float size = 1.5F) {
+DustPuff impact(double time, double distance, Look look = Look::concrete, float mass = 300, float size = 1.5F) {
   DustPuff puff;
   puff.time = time;
   puff.position = {distance, 0, 0};
@@ -90,7 +90,7 @@ TEST_CASE("modes are those of a free bar") {
 }
 
 TEST_CASE("steel rings at its modes, and longer than concrete") {
-  const auto steel = synthesise(blow(0, 0, Look::steel, 78.5F), 0);
+  const auto steel = synthesise(impact(0, 0, Look::steel, 78.5F), 0);
   const double f = modes_of(Look::steel, 78.5).frequencies[0];
   double at = 0;  // pieces are a little apart from the theory: up to 2 %
   for (double share = 0.98; share <= 1.02; share += 0.002) at = std::max(at, power_at(steel, share * f));
@@ -98,7 +98,7 @@ TEST_CASE("steel rings at its modes, and longer than concrete") {
   for (const double away : {0.7, 0.8, 1.25, 1.4}) aside = std::max(aside, power_at(steel, away * f));
   CHECK(at > 5 * aside);
   const auto tail = [](Look look) {
-    const auto sound = synthesise(blow(0, 0, look, 78.5F), 0);
+    const auto sound = synthesise(impact(0, 0, look, 78.5F), 0);
     double sum = 0, all = 0;
     for (std::size_t i = 0; i < sound.size(); ++i) {
       const double square = static_cast<double>(sound[i]) * static_cast<double>(sound[i]);
@@ -114,7 +114,7 @@ TEST_CASE("every kind of sound is finite, within bounds, ends in silence, and is
   for (const auto kind : {DustPuff::Kind::dust, DustPuff::Kind::sparks, DustPuff::Kind::blast, DustPuff::Kind::fire})
     for (unsigned look = 1; look <= 6; ++look)
       for (const float mass : {0.0F, 1.0F, 5000.0F, 1e7F}) {
-        DustPuff puff = blow(0, 0, static_cast<Look>(look), mass);
+        DustPuff puff = impact(0, 0, static_cast<Look>(look), mass);
         puff.kind = kind;
         const auto sound = synthesise(puff, 1);
         const auto [low, high] = std::minmax_element(sound.begin(), sound.end());
@@ -125,7 +125,7 @@ TEST_CASE("every kind of sound is finite, within bounds, ends in silence, and is
 }
 
 TEST_CASE("sound comes from where it is made, as late as it is far, and weaker") {
-  const Heard near = listen({blow(0.1, 15)}), far = listen({blow(0.1, 150)});
+  const Heard near = listen({impact(0.1, 15)}), far = listen({impact(0.1, 150)});
   // On the right.
   CHECK(Heard::power(near.right) > 2 * Heard::power(near.left));
   // A step of the run, and what the device's own blocks and filters delay.
@@ -140,7 +140,7 @@ TEST_CASE("nothing is heard of nothing, of what a jump in time passes over, or o
   CHECK(Heard::power(listen({}).left) == 0);
   const auto speaker = Speaker::into_memory();
   Snapshot moment;
-  moment.dust = std::make_shared<const std::vector<DustPuff>>(std::vector<DustPuff>{blow(1.0, 12)});
+  moment.dust = std::make_shared<const std::vector<DustPuff>>(std::vector<DustPuff>{impact(1.0, 12)});
   for (const double time : {0.0, 2.0}) {
     moment.time = time;
     speaker->hear(moment, ear(), 1);
@@ -154,10 +154,10 @@ TEST_CASE("nothing is heard of nothing, of what a jump in time passes over, or o
 }
 
 TEST_CASE("what is heavier and faster is louder, and many sounds at once stay within bounds") {
-  CHECK(loudness(blow(0, 0, Look::brick, 500, 3)) > 2 * loudness(blow(0, 0, Look::brick, 500, 0.8F)));
+  CHECK(loudness(impact(0, 0, Look::brick, 500, 3)) > 2 * loudness(impact(0, 0, Look::brick, 500, 0.8F)));
   std::vector<DustPuff> many;
   for (int i = 0; i < 400; ++i) {
-    many.push_back(blow(0.2 + 0.004 * (i / 10), 13 + i % 10, Look::brick, 2000, 4));
+    many.push_back(impact(0.2 + 0.004 * (i / 10), 13 + i % 10, Look::brick, 2000, 4));
     many.back().number = i;
   }
   const Heard heard = listen(many);

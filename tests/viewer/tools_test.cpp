@@ -192,7 +192,7 @@ TEST_CASE("scrubbing pauses, shows the past, and the present comes back") {
   person.click_on("P-1-1-1", 0.5);
   person.go(60);
   const double end = person.now().time;
-  person.controller.playback().look_at(5 * person.scene.scenario.step);
+  person.controller.playback().seek(5 * person.scene.scenario.step);
   CHECK(person.driver.paused());
   CHECK(person.controller.shown(true).time == Approx(5 * person.scene.scenario.step));
   CHECK(person.controller.shown(true).membership->members_standing ==
@@ -202,7 +202,7 @@ TEST_CASE("scrubbing pauses, shows the past, and the present comes back") {
   CHECK(person.controller.shown(true).time == Approx(5 * person.scene.scenario.step + 0.1).epsilon(0.2));
   person.controller.key("y");
   CHECK(person.controller.shown(true).time == end);
-  person.controller.playback().look_at(5 * person.scene.scenario.step);
+  person.controller.playback().seek(5 * person.scene.scenario.step);
   person.controller.playback().go_on_from_here();
   CHECK(person.session.simulation().steps() == 5);
   CHECK(person.session.actions() == 0);

@@ -116,7 +116,7 @@ void Controller::restart(const RunRules& rules) {
   scenario.fracture = rules.fracture;
   // Refused here, where a person is told, and not on the simulation's thread.
   const structure::Simulation tried(rules.building ? *rules.building : building_, scenario);
-  playback_.look_at_present();
+  playback_.seek_present();
   driver_.order_and_show([rules](Session& session) { session.restart(rules); });
 }
 

@@ -216,7 +216,7 @@ class HeadlessRun {
                             controller_.shake();
                           },
                           [&](const LookAction& a) {
-                            a.time ? controller_.playback().look_at(*a.time) : controller_.playback().look_at_present();
+                            a.time ? controller_.playback().seek(*a.time) : controller_.playback().seek_present();
                           },
                           [&](const GoOnAction&) { controller_.playback().go_on_from_here(); },
                           [&](const RestartAction& a) { controller_.restart(rules_of(a, controller_.scene())); },
@@ -297,7 +297,7 @@ void require_number_of_pictures(double seconds, double rate) {
 }
 
 /// A run that is looked at has no end: what comes after the scenario's is not the scenario's, and that is said.
-void tell_past_end(const Scene& scene, double at) {
+void warn_past_end(const Scene& scene, double at) {
   if (!scene.lasts || at <= *scene.lasts) return;
   std::fprintf(stderr,
                "topple-viewer: --at %g: the scenario ends at %g s (its \"duration\"), and the run goes on without it; "
@@ -311,7 +311,7 @@ void run_headless(const Scene& scene, const HeadlessOptions& options) {
   Script script = options.actions ? read_script(*options.actions) : Script();
   const std::array<int, 2> size = options.size ? *options.size : script.size.value_or(std::array<int, 2>{1280, 720});
   try_outputs(scene, options, script);
-  tell_past_end(scene, options.at);
+  warn_past_end(scene, options.at);
   std::optional<structure::OutputFolder> pictures;
   if (options.record)
     pictures.emplace(*options.record, std::vector<std::filesystem::path>{scene.model},

@@ -72,7 +72,7 @@ void Interface::point(glm::dvec2 pixel) {
   ImGui::GetIO().MousePos = ImVec2(static_cast<float>(pixel.x), static_cast<float>(pixel.y));
 }
 void Interface::press(bool down) { ImGui::GetIO().MouseDown[0] = down; }
-bool Interface::wants_pointer() { return ImGui::GetIO().WantCaptureMouse; }
+bool Interface::captures_pointer() { return ImGui::GetIO().WantCaptureMouse; }
 
 void Interface::end_frame() {
   ImGui::Render();

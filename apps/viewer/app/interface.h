@@ -24,7 +24,7 @@ class Interface {
   void point(glm::dvec2 pixel);
   void press(bool down);
   /// True when the pointer is over a panel.
-  [[nodiscard]] static bool wants_pointer();
+  [[nodiscard]] static bool captures_pointer();
 
   /// Draws what was laid out since the frame began into the framebuffer that is bound.
   static void end_frame();

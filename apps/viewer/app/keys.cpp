@@ -62,17 +62,17 @@ const Key of_the_run[] = {
     {"n", [](Controller& c) { c.driver().single_step(); }},
     {"r",
      [](Controller& c) {
-       c.playback().look_at_present();
+       c.playback().seek_present();
        c.driver().restart();
      }},
     {"u",
      [](Controller& c) {
-       c.playback().look_at_present();
+       c.playback().seek_present();
        c.driver().undo();
      }},
-    {"y", [](Controller& c) { c.playback().look_at_present(); }},
-    {"bracketleft", [](Controller& c) { c.playback().look_along(-Playback::key_step); }},
-    {"bracketright", [](Controller& c) { c.playback().look_along(Playback::key_step); }},
+    {"y", [](Controller& c) { c.playback().seek_present(); }},
+    {"bracketleft", [](Controller& c) { c.playback().seek_by(-Playback::key_step); }},
+    {"bracketright", [](Controller& c) { c.playback().seek_by(Playback::key_step); }},
     {"backspace", [](Controller& c) { c.playback().go_on_from_here(); }},
     {"minus", [](Controller& c) { c.driver().set_speed(std::max(0.02, c.driver().speed() / 2)); }},
     {"equal", [](Controller& c) { c.driver().set_speed(std::min(1.0, c.driver().speed() * 2)); }},

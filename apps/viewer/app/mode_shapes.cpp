@@ -95,7 +95,7 @@ void ModeShapes::start(ModeKind kind) {
   });
 }
 
-void ModeShapes::take(Work& work) {
+void ModeShapes::store(Work& work) {
   try {
     work.modes = work.future.get();
     if (work.modes->empty()) work.error = "there are none";
@@ -110,7 +110,7 @@ const std::vector<ModeShape>* ModeShapes::find(ModeKind kind) {
   if (work.modes) return &*work.modes;
   if (!work.future.valid()) start(kind);
   if (work.future.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
-  take(work);
+  store(work);
   return &*work.modes;
 }
 
@@ -118,7 +118,7 @@ const std::vector<ModeShape>& ModeShapes::wait_for(ModeKind kind) {
   Work& work = of(kind);
   if (!work.modes) {
     if (!work.future.valid()) start(kind);
-    take(work);
+    store(work);
   }
   return *work.modes;
 }

@@ -42,7 +42,7 @@ class ModeShapes {
   Work& of(ModeKind kind) { return work_[static_cast<std::size_t>(kind)]; }
   [[nodiscard]] const Work& of(ModeKind kind) const { return work_[static_cast<std::size_t>(kind)]; }
   void start(ModeKind kind);
-  void take(Work& work);
+  void store(Work& work);
 
   std::shared_ptr<const structure::Building> building_;
   structure::CombinationId combination_;

@@ -178,7 +178,7 @@ const structure::BentPart& shape_at(const std::vector<ShapeChange>& shapes, std:
 
 namespace {
 
-std::vector<structure::Vec3> places(const Mesh& mesh) {
+std::vector<structure::Vec3> positions(const Mesh& mesh) {
   std::vector<structure::Vec3> places;
   for (const Vertex& v : mesh.vertices)
     places.push_back(Eigen::Vector3f(v.position.x, v.position.y, v.position.z).cast<double>());
@@ -203,8 +203,8 @@ PartMesh member_mesh(const structure::Building& building, structure::MemberId id
   part.mesh = section_mesh(building[member.section], bent ? structure::bent_segments : 1);
   for (Vertex& v : part.mesh.vertices) v.position.x = (v.position.x - 0.5F) * static_cast<float>(member.length);
   if (!bent) return part;
-  part.bends = structure::member_bends(member.length, places(part.mesh));
-  part.bend_normals = structure::member_bend_normals(member.length, places(part.mesh), normals(part.mesh));
+  part.bends = structure::member_bends(member.length, positions(part.mesh));
+  part.bend_normals = structure::member_bend_normals(member.length, positions(part.mesh), normals(part.mesh));
   return part;
 }
 
@@ -214,8 +214,8 @@ PartMesh panel_part_mesh(const structure::Building& building, structure::PanelId
   part.rest = rest_pose(building, id);
   part.mesh = placed_panel_mesh(building, building[id], state, part.rest.position);
   if (ways == 0) return part;
-  part.bends = structure::panel_bends(building, id, places(part.mesh));
-  part.bend_normals = structure::panel_bend_normals(building, id, places(part.mesh), normals(part.mesh));
+  part.bends = structure::panel_bends(building, id, positions(part.mesh));
+  part.bend_normals = structure::panel_bend_normals(building, id, positions(part.mesh), normals(part.mesh));
   part.bends.resize(std::min(ways, part.bends.size()));
   part.bend_normals.resize(part.bends.size());
   return part;
@@ -230,7 +230,7 @@ bool normals_turn(const PartMesh& part, const std::vector<ShapeChange>& shapes) 
 
 Mesh placed(const PartMesh& part, const structure::BendWeights& bend, const Eigen::Vector3d& origin) {
   Mesh mesh = part.mesh;
-  const auto local = places(mesh), local_normals = normals(mesh);
+  const auto local = positions(mesh), local_normals = normals(mesh);
   for (std::size_t v = 0; v < local.size(); ++v) {
     Eigen::Vector3d at = local[v];
     for (std::size_t k = 0; k < part.bends.size(); ++k) at += static_cast<double>(bend[k]) * part.bends[k][v];

@@ -96,7 +96,7 @@ void draw_joint(Controller& controller, const Snapshot& moment, structure::Joint
               begin, end);
   const auto clicked = plot_line("##history", values, "", 5 * ImGui::GetFontSize(),
                                  static_cast<float>((moment.time - begin) / std::max(end - begin, 1e-9)));
-  if (clicked) controller.playback().look_at(begin + (end - begin) * static_cast<double>(*clicked));
+  if (clicked) controller.playback().seek(begin + (end - begin) * static_cast<double>(*clicked));
 }
 
 namespace {

@@ -55,7 +55,7 @@ void Session::begin() {
 /// What of it is drawn beside what the simulation tells.
 void Session::watch(const structure::Tool& tool, double at) {
   if (const auto* fire = std::get_if<structure::WeakenTool>(&tool)) taker_.burn(*fire, at);
-  if (const auto* gone = std::get_if<structure::RemoveTool>(&tool)) taker_.take_supports(gone->supports, at);
+  if (const auto* gone = std::get_if<structure::RemoveTool>(&tool)) taker_.mark_removed_supports(gone->supports, at);
 }
 
 void Session::step() {
@@ -326,14 +326,14 @@ void Session::record_events() {
 }
 
 std::shared_ptr<const Snapshot> Session::snapshot() {
-  auto snapshot = std::make_shared<Snapshot>(taker_.take(*simulation_, drawn_.get()));
+  auto snapshot = std::make_shared<Snapshot>(taker_.capture(*simulation_, drawn_.get()));
   snapshot->tuned = tuned_;
   snapshot->path = path_;
   for (const Pulling& one : pulling_)
     if (const structure::NodeId node = one.pull.node; simulation_->frame().stands(node))
       snapshot->ropes.push_back(
           {(*building_)[node].position + simulation_->frame().displacement(node).head<3>(), one.pull.winch});
-  snapshot->blows = static_cast<int>(std::count_if(actions_.begin(), actions_.end(), [](const Action& action) {
+  snapshot->actions = static_cast<int>(std::count_if(actions_.begin(), actions_.end(), [](const Action& action) {
     const auto* tool = std::get_if<structure::Tool>(&action.what);
     if (tool != nullptr) return !std::holds_alternative<structure::GravityTool>(*tool);
     return !std::holds_alternative<structure::JointChange>(action.what);

@@ -63,7 +63,7 @@ void event_marks(Controller& controller, const std::vector<Recording::Event>& ev
   ImGui::TextUnformatted(near.c_str());
   ImGui::EndTooltip();
   if (ImGui::IsMouseClicked(0))
-    controller.playback().look_at(span[0] + length * static_cast<double>((mouse.x - from.x) / width));
+    controller.playback().seek(span[0] + length * static_cast<double>((mouse.x - from.x) / width));
 }
 
 }  // namespace
@@ -77,11 +77,11 @@ void draw_timeline(Controller& controller, const Snapshot& moment, glm::dvec2 sc
   const auto span = controller.driver().recording().span();
   const bool back = controller.playback().looking_at().has_value();
   if (ImGui::Button(controller.playback().replaying() ? "Stop" : "Replay")) {
-    if (!back || *controller.playback().looking_at() >= span[1]) controller.playback().look_at(span[0]);
+    if (!back || *controller.playback().looking_at() >= span[1]) controller.playback().seek(span[0]);
     controller.playback().replay(!controller.playback().replaying());
   }
   ImGui::SameLine();
-  if (toggle_button("Present", !back)) controller.playback().look_at_present();
+  if (toggle_button("Present", !back)) controller.playback().seek_present();
   ImGui::SameLine();
   if (ImGui::Button("Go on from here")) controller.playback().go_on_from_here();
   ImGui::SameLine();
@@ -92,7 +92,7 @@ void draw_timeline(Controller& controller, const Snapshot& moment, glm::dvec2 sc
   ImGui::PushItemWidth(width);
   const ImVec2 from = ImGui::GetCursorScreenPos();
   if (ImGui::SliderFloat("##time", &time, static_cast<float>(span[0]), static_cast<float>(span[1]), "%.2f s"))
-    controller.playback().look_at(static_cast<double>(time));
+    controller.playback().seek(static_cast<double>(time));
   ImGui::PopItemWidth();
   event_marks(controller, events, span, ImVec2(from.x, ImGui::GetCursorScreenPos().y), width);
   ImGui::End();

@@ -308,7 +308,7 @@ bool run_scene(const Window& window, Input& input, WindowInterface& interface, c
     controller.resize(scene_size(window, controller));
     controller.update(now - before);
     before = now;
-    if (input.pointer() != hovered_at && !Interface::wants_pointer()) controller.hover(hovered_at = input.pointer());
+    if (input.pointer() != hovered_at && !Interface::captures_pointer()) controller.hover(hovered_at = input.pointer());
     const double started = processor_milliseconds();
     outputs.before_picture(controller);
     const Snapshot moment = controller.shown(false);

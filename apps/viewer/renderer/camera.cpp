@@ -43,7 +43,7 @@ void Camera::orbit(double azimuth, double elevation, double lowest) {
   eye = target + radius * direction(azimuth_of(arm) + azimuth, rise);
 }
 
-void Camera::look(double azimuth, double elevation) {
+void Camera::turn_view(double azimuth, double elevation) {
   const double radius = distance();
   const glm::dvec3 ahead = forward();
   target = eye + radius * direction(azimuth_of(ahead) + azimuth, off_pole(elevation_of(ahead) + elevation));

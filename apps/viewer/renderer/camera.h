@@ -29,7 +29,7 @@ struct Camera {
   /// below `lowest`.
   void orbit(double azimuth, double elevation, double lowest);
   /// Turns the view about the eye, to the left and up.
-  void look(double azimuth, double elevation);
+  void turn_view(double azimuth, double elevation);
   /// Moves the eye towards (below 1) or away from (above 1) the target.
   void zoom(double factor);
   /// Moves eye and target in the picture's plane, in heights of the picture at the target.

@@ -125,7 +125,7 @@ struct Snapshot {
   std::shared_ptr<const std::vector<Eigen::Vector3f>> shape_bulge;
   float shape_scale = 0;
   std::vector<std::array<Eigen::Vector3d, 2>> ropes;  ///< that a winch pulls, from end to end
-  int blows = 0;                                      ///< what a person has done to the building
+  int actions = 0;                                    ///< what a person has done to the building
   structure::SimulationCounters counters;
   structure::Ledger energies;
   std::array<double, 6> stage_seconds{};

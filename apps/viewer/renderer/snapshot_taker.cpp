@@ -188,7 +188,7 @@ structure::MaterialId SnapshotTaker::material_of(const Simulation& simulation, c
 
 void SnapshotTaker::begin(const Simulation& simulation) { at_start_ = shapes_.read(simulation); }
 
-Snapshot SnapshotTaker::take(const Simulation& simulation, structure::VisualMesh* drawn) {
+Snapshot SnapshotTaker::capture(const Simulation& simulation, structure::VisualMesh* drawn) {
   const auto seen_standing = shapes_.standing();
   const auto seen_parts = shapes_.parts();
   shapes_.watch(simulation);

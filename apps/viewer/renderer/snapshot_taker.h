@@ -15,7 +15,7 @@ class SnapshotTaker {
   /// The run begins: what it has moved by later is counted from how it stands now.
   void begin(const structure::Simulation& simulation);
   /// `drawn`: cut where its parts have come apart since, and seen.
-  [[nodiscard]] Snapshot take(const structure::Simulation& simulation, structure::VisualMesh* drawn = nullptr);
+  [[nodiscard]] Snapshot capture(const structure::Simulation& simulation, structure::VisualMesh* drawn = nullptr);
   /// From the next snapshot on.
   void set_wanted(Wanted wanted) { wanted_ = wanted; }
   /// Joints were given other capacities: the next snapshot reads their utilisations anew.
@@ -27,7 +27,7 @@ class SnapshotTaker {
   /// Flames are seen at this time, s: each step has its own.
   [[nodiscard]] bool burns(double time) const { return dust_.burns(time); }
   /// Supports of these nodes are taken away at this time (s).
-  void take_supports(const std::vector<structure::NodeId>& nodes, double at) {
+  void mark_removed_supports(const std::vector<structure::NodeId>& nodes, double at) {
     for (const structure::NodeId node : nodes) taken_supports_.emplace_back(node, at);
   }
   void blast(const Eigen::Vector3d& centre, double charge) { dust_.blast(centre, charge); }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "loads/on_pieces.h"
+#include "model/index_of.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -147,9 +148,9 @@ std::vector<solver::NodeMass> modal_masses(const Building& building, const Frame
   }
   for (const auto& [id, mass] : building.masses.members) {
     const Member& member = building[id];
-    const auto& pieces = frame.pieces[static_cast<std::size_t>(id.index)];
+    const auto& pieces = frame.pieces[index_of(id)];
     for (const NodeId node : member.nodes)
-      if (!to_pieces || pieces.empty()) point[static_cast<std::size_t>(node.index)] += mass / 2;
+      if (!to_pieces || pieces.empty()) point[index_of(node)] += mass / 2;
     for (const MemberPiece& piece : pieces) {
       const solver::Beam& beam = frame.model.beams[static_cast<std::size_t>(piece.beam)];
       for (const int node : beam.node)

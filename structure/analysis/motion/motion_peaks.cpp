@@ -126,24 +126,25 @@ void MotionPeaks::sample_joints(double length) {
     const std::size_t j = index_of(own.joint);
     const solver::SubstepCourse<Vec6> course{before_.demand[j], before_.rate[j], now_.demand[j], now_.rate[j], length};
     const JointCapacity& capacity = divided_.building()[own.joint].capacity;
-    const auto use_at = [&](double share) { return utilisation(capacity, course.at(share)); };
+    const auto utilisation_at = [&](double share) { return utilisation(capacity, course.at(share)); };
     double best = 0, largest = -1;
     for (int k = 0; k <= parts; ++k) {
-      const double share = static_cast<double>(k) / parts, value = use_at(share).value;
+      const double share = static_cast<double>(k) / parts, value = utilisation_at(share).value;
       if (value > largest) largest = value, best = share;
     }
     constexpr double near_record = 0.9;
-    if (largest < near_record * own.use.value) continue;
+    if (largest < near_record * own.utilisation.value) continue;
     double low = std::max(0.0, best - 1.0 / parts), high = std::min(1.0, best + 1.0 / parts);
     for (int k = 0; k < thirds; ++k) {
       const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-      (use_at(a).value < use_at(b).value ? low : high) = use_at(a).value < use_at(b).value ? a : b;
+      (utilisation_at(a).value < utilisation_at(b).value ? low : high) =
+          utilisation_at(a).value < utilisation_at(b).value ? a : b;
     }
     const double middle = (low + high) / 2;
-    if (use_at(middle).value > largest) best = middle;
-    const Utilisation use = use_at(best);
-    if (!(use.value > own.use.value)) continue;
-    own.use = use;
+    if (utilisation_at(middle).value > largest) best = middle;
+    const Utilisation use = utilisation_at(best);
+    if (!(use.value > own.utilisation.value)) continue;
+    own.utilisation = use;
     own.demand = course.at(best);
     own.at = time_ + best * length;
   }
@@ -187,7 +188,7 @@ void MotionPeaks::sample_now() {
 
 std::vector<double> MotionPeaks::uses() const {
   std::vector<double> values;
-  for (const JointState& own : joints_) values.push_back(own.use.value);
+  for (const JointState& own : joints_) values.push_back(own.utilisation.value);
   return values;
 }
 
@@ -201,7 +202,7 @@ std::vector<double> MotionPeaks::movements() const {
 void MotionPeaks::write_to(const Building& whole, MotionResult& result) const {
   for (const JointState& own : joints_)
     if (const JointId joint = divided_.joint(own.joint); joint.valid())
-      result.joints.push_back({joint, own.use, own.demand, own.at, std::nullopt});
+      result.joints.push_back({joint, own.utilisation, own.demand, own.at, std::nullopt});
   result.members = members_;
   result.displacements.assign(largest_.begin(), largest_.begin() + static_cast<std::ptrdiff_t>(whole.nodes.size()));
   result.history = history_;

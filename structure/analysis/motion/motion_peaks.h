@@ -24,7 +24,7 @@ class MotionPeaks {
  private:
   struct JointState {
     JointId joint;  ///< of the divided building
-    Utilisation use;
+    Utilisation utilisation;
     Vec6 demand = Vec6::Zero();
     double at = 0;
   };

@@ -112,7 +112,7 @@ class Patches {
       node.recovered = node.field.col(0);
     }
     for (auto& [id, node] : nodes_)
-      if (!node.inside) take_from_patches(node);
+      if (!node.inside) recover_from_patches(node);
   }
 
   void fit(Node& node) const {
@@ -131,7 +131,7 @@ class Patches {
     node.field.rightCols<2>() /= size;
   }
 
-  void take_from_patches(Node& node) {
+  void recover_from_patches(Node& node) {
     double count = 0;
     for (const std::size_t k : node.elements)
       for (const int other : mesh_.elements[k]) {

@@ -39,7 +39,7 @@ struct State {
   [[nodiscard]] const Vec6& moved(int node) const { return solution.displacements[static_cast<std::size_t>(node)]; }
   [[nodiscard]] const Vec3& rest(int node) const { return frame.model.nodes[static_cast<std::size_t>(node)]; }
   /// Where what acts on a node, or at the end of a rigid arm of it, acts.
-  [[nodiscard]] Vec3 place(int node, const Vec3& arm = Vec3::Zero()) const {
+  [[nodiscard]] Vec3 position(int node, const Vec3& arm = Vec3::Zero()) const {
     Vec3 at = rest(node) + arm;
     if (displaced) at += moved(node).head<3>() + moved(node).tail<3>().cross(arm);
     return at;
@@ -143,7 +143,7 @@ class Cut {
       const solver::Beam& beam = s_.frame.model.beams[static_cast<std::size_t>(index)];
       for (std::size_t end = 0; end < 2; ++end)
         if (behind(s_.rest(beam.node[end])))
-          sum.add(s_.place(beam.node[end], beam.offset[end]), -s_.end_force(index, end));
+          sum.add(s_.position(beam.node[end], beam.offset[end]), -s_.end_force(index, end));
       for (const solver::BeamLoad* load : beam_loads_[static_cast<std::size_t>(index)]) add_beam_load(*load, beam, sum);
     }
     return sum.sum();
@@ -155,7 +155,7 @@ class Cut {
     const auto put = [&](double at, const Vec6& local) {
       Vec3 place = start + at * x;
       if (s_.displaced) {
-        const Vec3 first = s_.place(beam.node[0], beam.offset[0]), last = s_.place(beam.node[1], beam.offset[1]);
+        const Vec3 first = s_.position(beam.node[0], beam.offset[0]), last = s_.position(beam.node[1], beam.offset[1]);
         place = first + at / beam.length * (last - first);
       }
       sum.add(place, -(beam.axes.transpose() * local.head<3>()), -(beam.axes.transpose() * local.tail<3>()));
@@ -194,7 +194,7 @@ class Cut {
     const Vec3 traction = action.body_force - action.pressure * Vec3(s_.building.panels[p].axes.row(2));
     const auto element = [&](const std::array<int, 4>& nodes, const std::array<Vec6, 4>& forces) {
       for (std::size_t c = 0; c < 4; ++c)
-        if (behind(s_.rest(nodes[c]))) sum.add(s_.place(nodes[c]), -forces[c]);
+        if (behind(s_.rest(nodes[c]))) sum.add(s_.position(nodes[c]), -forces[c]);
     };
     for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
       if (!passes(mesh.elements[k])) continue;
@@ -214,12 +214,13 @@ class Cut {
     for (std::size_t c = 0; c < 3; ++c) {
       const int node = nodes[corners[c]], next = nodes[corners[(c + 1) % 3]];
       const double here = beyond(s_.rest(node)), there = beyond(s_.rest(next));
-      if (here <= tolerance_) kept.push_back(s_.place(node));
+      if (here <= tolerance_) kept.push_back(s_.position(node));
       if ((here <= tolerance_) == (there <= tolerance_)) continue;
-      kept.push_back(s_.place(node) + here / (here - there) * (s_.place(next) - s_.place(node)));
+      kept.push_back(s_.position(node) + here / (here - there) * (s_.position(next) - s_.position(node)));
     }
     // Loads are those of the undisplaced element, whose area is counted across its mean normal.
-    const Vec3 whole = (s_.place(nodes[i]) - s_.place(nodes[0])).cross(s_.place(nodes[i + 1]) - s_.place(nodes[0]));
+    const Vec3 whole =
+        (s_.position(nodes[i]) - s_.position(nodes[0])).cross(s_.position(nodes[i + 1]) - s_.position(nodes[0]));
     const Vec3 normal = (s_.rest(nodes[2]) - s_.rest(nodes[0])).cross(s_.rest(nodes[3]) - s_.rest(nodes[1]));
     const Vec3 rest = (s_.rest(nodes[i]) - s_.rest(nodes[0])).cross(s_.rest(nodes[i + 1]) - s_.rest(nodes[0]));
     const double area = rest.dot(normal.normalized()) / 2;
@@ -240,17 +241,17 @@ class Cut {
     for (const int node : nodes) {
       if (!behind(s_.rest(node))) continue;
       const Vec6 left = demand_of_elements(node) - at_nodes_.given[static_cast<std::size_t>(node)];
-      sum.add(s_.place(node), Vec3(left.x(), left.y(), 0), Vec3(0, 0, left(5)));
+      sum.add(s_.position(node), Vec3(left.x(), left.y(), 0), Vec3(0, 0, left(5)));
     }
     return sum.sum();
   }
   /// What a node does to all that hangs on it, about itself.
   [[nodiscard]] Vec6 demand_of_elements(int node) const {
-    Resultant sum(s_.place(node));
+    Resultant sum(s_.position(node));
     for (const auto& [b, end] : at_nodes_.beams[static_cast<std::size_t>(node)])
-      sum.add(s_.place(node, s_.frame.model.beams[static_cast<std::size_t>(b)].offset[end]), s_.end_force(b, end));
+      sum.add(s_.position(node, s_.frame.model.beams[static_cast<std::size_t>(b)].offset[end]), s_.end_force(b, end));
     for (const auto& [k, corner] : at_nodes_.shells[static_cast<std::size_t>(node)])
-      sum.add(s_.place(node), s_.solution.shell_corner_forces[static_cast<std::size_t>(k)][corner]);
+      sum.add(s_.position(node), s_.solution.shell_corner_forces[static_cast<std::size_t>(k)][corner]);
     return sum.sum();
   }
 

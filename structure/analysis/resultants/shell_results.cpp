@@ -37,17 +37,17 @@ class PanelReader {
       : panel_(building[id]), mesh_(frame.meshes[index_of(id)]), frame_(frame), strain_(strain), solution_(solution) {}
 
   [[nodiscard]] std::size_t elements() const { return mesh_.elements.size(); }
-  [[nodiscard]] const Vec3& place(std::size_t element, std::size_t corner) const {
+  [[nodiscard]] const Vec3& position(std::size_t element, std::size_t corner) const {
     return frame_.model.nodes[static_cast<std::size_t>(mesh_.elements[element][corner % 4])];
   }
   [[nodiscard]] Vec3 centre(std::size_t element) const {
-    return (place(element, 0) + place(element, 1) + place(element, 2) + place(element, 3)) / 4;
+    return (position(element, 0) + position(element, 1) + position(element, 2) + position(element, 3)) / 4;
   }
   /// In axes whose x lies along `x`, a direction in the panel; at a place of the element (-1 to 1 both ways).
   [[nodiscard]] ShellResultants resultants(std::size_t element, const Vec3& x, const Vec2& at = Vec2::Zero()) const {
     const ShellResultants own = own_axes(element, at);
     const Vec3 normal = panel_.axes.row(2);
-    const Vec3 from = (place(element, 1) - place(element, 0)).normalized();
+    const Vec3 from = (position(element, 1) - position(element, 0)).normalized();
     const double c = from.dot(x), s = normal.dot(from.cross(x)), length = std::hypot(c, s);
     return turned(own, c / length, s / length);
   }
@@ -60,7 +60,7 @@ class PanelReader {
     solver::FrameModel alone;  // with the displacements of its own side of the joints
     std::vector<Vec6> displacements;
     for (std::size_t c = 0; c < 4; ++c) {
-      alone.nodes.push_back(place(element, c));
+      alone.nodes.push_back(position(element, c));
       displacements.push_back(solution_.displacements[static_cast<std::size_t>(mesh_.elements[element][c])]);
     }
     alone.shells = {frame_.model.shells[static_cast<std::size_t>(shell)]};
@@ -117,11 +117,11 @@ void set_centre(const PanelReader& reader, const Vec3& centre, double size, Pane
 std::array<Vec6, 4> element_forces(const Building& building, const Frame& frame, PanelId id, std::size_t k,
                                    const PartLoads& loads, const solver::StaticSolution& solution) {
   const int shell = frame.meshes[index_of(id)].first_shell + static_cast<int>(k);
-  const SemiRigidElement* giving = semi_rigid_element(frame, shell);
-  if (giving == nullptr) return solution.shell_corner_forces[static_cast<std::size_t>(shell)];
+  const SemiRigidElement* semi_rigid = semi_rigid_element(frame, shell);
+  if (semi_rigid == nullptr) return solution.shell_corner_forces[static_cast<std::size_t>(shell)];
   const PanelAction& action = loads.panels[index_of(id)];
   const Vec3 traction = action.body_force - action.pressure * Vec3(building[id].axes.row(2));
-  return element_corner_forces(frame, *giving, solution, traction, action.strain);
+  return element_corner_forces(frame, *semi_rigid, solution, traction, action.strain);
 }
 
 PanelResultants panel_resultants(const Building& building, const Frame& frame, PanelId id, const PartLoads& loads,

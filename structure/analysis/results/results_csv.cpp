@@ -37,7 +37,7 @@ class Table {
     text_ += '\n';
     fresh_ = true;
   }
-  [[nodiscard]] std::string take() { return std::move(text_); }
+  [[nodiscard]] std::string release() { return std::move(text_); }
 
  private:
   void separate() {
@@ -87,7 +87,7 @@ class Tables {
         for (const auto& [id, force] : c.cuts[k].panels) row(building_[id].name, force);
         for (const auto& [d, force] : c.cuts[k].diaphragms) row(building_.diaphragms[d].name, force);
       }
-    return table.take();
+    return table.release();
   }
 
   [[nodiscard]] std::string six_names(const std::string& prefix, const std::string& first,
@@ -106,7 +106,7 @@ class Tables {
         for (const double number : units_.movement(c.displacements[n])) table.cell(number);
         table.end_row();
       }
-    return table.take();
+    return table.release();
   }
 
   /// Those of edges under the edge's name, as in results.json.
@@ -125,7 +125,7 @@ class Tables {
         row(building_[building_.joint(support.panel, support.edge)].name, c.edge_reactions[s]);
       }
     }
-    return table.take();
+    return table.release();
   }
 
   [[nodiscard]] std::string members() const {
@@ -149,7 +149,7 @@ class Tables {
         if (result_.design_code) design(table, c.designs[m]);
         table.end_row();
       }
-    return table.take();
+    return table.release();
   }
 
   static void design(Table& table, const DesignResult& used) {
@@ -174,7 +174,7 @@ class Tables {
         table.cell(sense_names[static_cast<std::size_t>(used.sense)]).cell(used.demand / factor);
         table.cell(used.capacity / factor).cell(unit_of(used.sense, joint.panel.valid())).end_row();
       }
-    return table.take();
+    return table.release();
   }
 
   /// As it stands in a cell: "N mm", of an edge "N mm/mm"; nothing in consistent units.
@@ -201,7 +201,7 @@ class Tables {
         for (const double number : c.panels[p].shears) table.cell(number / per_length);
         table.end_row();
       }
-    return table.take();
+    return table.release();
   }
 
   const Building& building_;

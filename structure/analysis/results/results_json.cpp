@@ -4,6 +4,7 @@
 #include <set>
 
 #include "analysis/results/results_writer.h"
+#include "model/index_of.h"
 #include "parallel/in_order.h"
 #include "topple/solver/blas_kernel.h"
 
@@ -11,7 +12,7 @@ namespace topple::structure {
 
 namespace {
 
-std::string as_value(std::string_view text) { return JsonWriter().value(text).take(); }
+std::string as_value(std::string_view text) { return JsonWriter().value(text).release(); }
 
 }  // namespace
 
@@ -48,8 +49,7 @@ void ResultsWriter::select(const ResultsSelection& selection) {
   names->written = selection;
   std::erase_if(names->breakable, [&](std::size_t j) {
     const MemberId member = b_.joints[j].member;
-    return member.valid() && !std::binary_search(selection.members.begin(), selection.members.end(),
-                                                 static_cast<std::size_t>(member.index));
+    return member.valid() && !std::binary_search(selection.members.begin(), selection.members.end(), index_of(member));
   });
   names_ = std::move(names);
 }
@@ -77,7 +77,7 @@ std::string ResultsWriter::diagnosis(const Diagnosis& diagnosis) {
   w_.close(']').newline();
   shape(diagnosis.shape);
   w_.close('}').close('}');
-  return w_.take() + "\n";
+  return w_.release() + "\n";
 }
 
 void ResultsWriter::write(const std::function<void(std::string_view)>& sink) {
@@ -85,7 +85,7 @@ void ResultsWriter::write(const std::function<void(std::string_view)>& sink) {
   const auto make = [&](std::size_t i, std::string& text) {
     ResultsWriter piece(*this, std::move(text));
     all[i](piece);
-    text = piece.w_.take();
+    text = piece.w_.release();
   };
   in_order(all.size(), request_.workers, make, sink);
   sink("\n");

@@ -110,8 +110,13 @@ void ResultsWriter::loss_mechanism(const LossState& state) {
 
 void ResultsWriter::loss_state(const LossState& state) {
   if (state.worst.valid()) {
-    w_.key("worst").open('{').key("joint").value(b_[state.worst].name).key("utilisation").value(state.use.value);
-    w_.key("governing").value(sense_names[static_cast<std::size_t>(state.use.sense)]).close('}');
+    w_.key("worst")
+        .open('{')
+        .key("joint")
+        .value(b_[state.worst].name)
+        .key("utilisation")
+        .value(state.utilisation.value);
+    w_.key("governing").value(sense_names[static_cast<std::size_t>(state.utilisation.sense)]).close('}');
   }
   w_.key("survives").value(state.survives()).key("displacements").open('{');
   for (std::size_t n = 0; n < state.displacements.size(); ++n) {

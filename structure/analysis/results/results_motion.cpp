@@ -14,8 +14,14 @@ void ResultsWriter::motion(const MotionResult& motion) {
   if (motion.unsettled > 0) w_.key("unsettled").value(static_cast<std::size_t>(motion.unsettled));
   w_.key("joints").open('{');
   for (const JointPeak& joint : motion.joints) {
-    w_.newline().key(b_[joint.joint].name).open('{').key("peak").open('{').key("utilisation").value(joint.use.value);
-    w_.key("governing").value(sense_names[static_cast<std::size_t>(joint.use.sense)]);
+    w_.newline()
+        .key(b_[joint.joint].name)
+        .open('{')
+        .key("peak")
+        .open('{')
+        .key("utilisation")
+        .value(joint.utilisation.value);
+    w_.key("governing").value(sense_names[static_cast<std::size_t>(joint.utilisation.sense)]);
     w_.key("at").value(joint.at).close('}');
     if (joint.amplification) w_.key("amplification").value(*joint.amplification);
     w_.close('}');
@@ -95,7 +101,7 @@ class HistoryTable {
     }
   }
 
-  [[nodiscard]] std::string take() { return std::move(text_); }
+  [[nodiscard]] std::string release() { return std::move(text_); }
 
  private:
   static std::string per_length(const Building& building, std::size_t component) {
@@ -152,12 +158,12 @@ NamedTexts motion_csv(const Building& building, const AnalysisRequest& request, 
       table.add(state.combination, *state.dynamic);
       any = true;
     }
-    if (any) files.emplace_back(file_name(building[loss.member].name), table.take());
+    if (any) files.emplace_back(file_name(building[loss.member].name), table.release());
   }
   if (result.motions.empty()) return files;
   HistoryTable table(building, wanted);
   for (const auto& [combination, motion] : result.motions) table.add(combination, motion);
-  files.emplace_back("history-time-history.csv", table.take());
+  files.emplace_back("history-time-history.csv", table.release());
   return files;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "model/index_of.h"
+
 namespace topple::structure {
 
 ResultsSelection select_members(const Building& building, const AnalysisResult& result, std::size_t count,
@@ -11,14 +13,15 @@ ResultsSelection select_members(const Building& building, const AnalysisResult& 
   std::vector<double> use(all, 0);
   for (const CombinationResult& c : result.combinations)
     for (std::size_t m = 0; m < c.designs.size(); ++m) use[m] = std::max(use[m], c.designs[m].utilisation);
-  std::vector<std::size_t> by_use(all);
-  std::iota(by_use.begin(), by_use.end(), std::size_t{0});
-  std::stable_sort(by_use.begin(), by_use.end(), [&](std::size_t a, std::size_t b) { return use[a] > use[b]; });
+  std::vector<std::size_t> by_utilisation(all);
+  std::iota(by_utilisation.begin(), by_utilisation.end(), std::size_t{0});
+  std::stable_sort(by_utilisation.begin(), by_utilisation.end(),
+                   [&](std::size_t a, std::size_t b) { return use[a] > use[b]; });
   std::vector<char> chosen(all, 0);
   std::vector<std::size_t> taken(building.sections.size(), 0);
   std::size_t number = 0;
-  for (const std::size_t m : by_use) {
-    if (number == count || taken[static_cast<std::size_t>(building.members[m].section.index)]++ >= of_section) continue;
+  for (const std::size_t m : by_utilisation) {
+    if (number == count || taken[index_of(building.members[m].section)]++ >= of_section) continue;
     chosen[m] = 1;
     ++number;
   }
@@ -34,11 +37,11 @@ ResultsSelection select_members(const Building& building, const AnalysisResult& 
   for (std::size_t m = 0; m < all; ++m) {
     if (chosen[m] == 0) continue;
     selection.members.push_back(m);
-    for (const NodeId node : building.members[m].nodes) nodes[static_cast<std::size_t>(node.index)] = 1;
+    for (const NodeId node : building.members[m].nodes) nodes[index_of(node)] = 1;
   }
-  for (const NodeSupport& support : building.supports) nodes[static_cast<std::size_t>(support.node.index)] = 1;
+  for (const NodeSupport& support : building.supports) nodes[index_of(support.node)] = 1;
   for (const Panel& panel : building.panels)
-    for (const NodeId node : panel.nodes) nodes[static_cast<std::size_t>(node.index)] = 1;
+    for (const NodeId node : panel.nodes) nodes[index_of(node)] = 1;
   for (std::size_t n = 0; n < nodes.size(); ++n)
     if (nodes[n] != 0) selection.nodes.push_back(n);
   return selection;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "analysis/results/output_units.h"
+#include "model/index_of.h"
 #include "topple/structure/analysis.h"
 
 namespace topple::structure {
@@ -112,7 +113,7 @@ class Grid {
     const Vec3 axis = member.axes.row(0);
     std::vector<int> nodes{member.nodes[0].index, member.nodes[1].index};
     if (!cuts_.empty())
-      for (const int inner : cuts_[static_cast<std::size_t>(id.index)])
+      for (const int inner : cuts_[index_of(id)])
         if (static_cast<std::size_t>(inner) < shape.size()) nodes.insert(nodes.end() - 1, inner);
     const std::size_t pieces = nodes.size() - 1;
     const std::size_t piece = std::min(pieces - 1, static_cast<std::size_t>(f * static_cast<double>(pieces)));
@@ -144,11 +145,11 @@ class Grid {
   void add_member(MemberId id) {
     constexpr std::size_t poly_line = 4;
     const Member& member = building_[id];
-    const MemberResult& result = result_.members[static_cast<std::size_t>(id.index)];
+    const MemberResult& result = result_.members[index_of(id)];
     if (result.stations.size() < 2) throw std::invalid_argument("results_vtu: the result has no stations");
     std::array<Vec3, 2> place, moved;
     for (std::size_t end = 0; end < 2; ++end) {
-      const Vec6& node = result_.displacements[static_cast<std::size_t>(member.nodes[end].index)];
+      const Vec6& node = result_.displacements[index_of(member.nodes[end])];
       const Vec3 turned = node.tail<3>();
       place[end] = building_[member.nodes[end]].position + member.offsets[end];
       moved[end] = node.head<3>() + turned.cross(member.offsets[end]);
@@ -161,12 +162,12 @@ class Grid {
       for (std::size_t k = 0; k < shapes_.size(); ++k) drawn_[k].add(along_member(id, *shapes_[k].second, f));
       for (std::size_t q = 0; q < forces; ++q) diagrams_[q].add(values[q] / units_.diagram_factor(q));
     }
-    end_cell(poly_line, worst(building_.joint(id, 0), 2), Vec3::Zero(), static_cast<std::size_t>(id.index));
+    end_cell(poly_line, worst(building_.joint(id, 0), 2), Vec3::Zero(), index_of(id));
   }
 
   void add_panel(PanelId id) {
     const Panel& panel = building_[id];
-    const PanelResult& result = result_.panels[static_cast<std::size_t>(id.index)];
+    const PanelResult& result = result_.panels[index_of(id)];
     for (const PanelElement& element : result.elements) add_quadrilateral(id, element.nodes, element);
     if (!result.elements.empty()) return;
     std::array<int, 4> nodes{};
@@ -190,8 +191,7 @@ class Grid {
     }
     const double per_length = building_.units.force / building_.units.length;
     end_cell(quadrilateral, worst(building_.joint(id, 0), 4), Vec3(result.membrane.data()) / per_length,
-             building_.members.size() + static_cast<std::size_t>(id.index),
-             Vec3(result.moments.data()) / building_.units.force,
+             building_.members.size() + index_of(id), Vec3(result.moments.data()) / building_.units.force,
              Vec3(result.shears[0], result.shears[1], 0) / per_length);
   }
 

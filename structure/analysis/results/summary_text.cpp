@@ -24,7 +24,7 @@ class Text {
     text_ += buffer;
     text_ += '\n';
   }
-  std::string take() { return std::move(text_); }
+  std::string release() { return std::move(text_); }
 
  private:
   std::string text_;
@@ -117,7 +117,7 @@ void most_used_members(Text& text, const Building& building, const AnalysisResul
 }
 
 /// Where something moves most, in the building's names.
-std::string place_of(const Building& building, const LargestDisplacement& largest) {
+std::string location_of(const Building& building, const LargestDisplacement& largest) {
   if (largest.member.valid())
     return "in member " + building[largest.member].name + ", " +
            short_number(largest.at / building.units.length, digits) + " from its first end";
@@ -170,7 +170,7 @@ void combination(Text& text, const Building& building, const AnalysisResult& res
   text.line("combination %s", building[c.combination].name.c_str());
   const Vec3 moved = c.largest.moved / units.length;
   text.line("  largest displacement %.4g%s %s (x %.4g, y %.4g, z %.4g)", c.largest.value / units.length, length.c_str(),
-            place_of(building, c.largest).c_str(), moved.x(), moved.y(), moved.z());
+            location_of(building, c.largest).c_str(), moved.x(), moved.y(), moved.z());
   // What rounding leaves of nothing is shown as nothing.
   const double rounding = 1e-12 * c.total_load.head<3>().norm();
   const auto shown = [&](double f) { return std::abs(f) < rounding ? 0.0 : f / units.force; };
@@ -228,8 +228,8 @@ void losses(Text& text, const Building& building, const LossResult& result) {
       if (!state.stands())
         text.line("  %-20s %-16s mechanism  %.300s", lost, under, state.mechanism.c_str());
       else if (state.worst.valid())
-        text.line("  %-20s %-16s %s  %s %s", lost, under, percent(state.use.value).c_str(),
-                  building[state.worst].name.c_str(), sense_names[static_cast<std::size_t>(state.use.sense)]);
+        text.line("  %-20s %-16s %s  %s %s", lost, under, percent(state.utilisation.value).c_str(),
+                  building[state.worst].name.c_str(), sense_names[static_cast<std::size_t>(state.utilisation.sense)]);
       else
         text.line("  %-20s %-16s    stands  no joint has a capacity", lost, under);
     }
@@ -252,14 +252,15 @@ void motion(Text& text, const std::string& what, const Building& building, const
   const std::size_t shown = std::min(joints_shown, order.size());
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(),
                     [](const JointPeak* a, const JointPeak* b) {
-                      return a->use.value != b->use.value ? a->use.value > b->use.value
-                                                          : a->joint.index < b->joint.index;
+                      return a->utilisation.value != b->utilisation.value ? a->utilisation.value > b->utilisation.value
+                                                                          : a->joint.index < b->joint.index;
                     });
   for (std::size_t k = 0; k < shown; ++k) {
     const JointPeak& joint = *order[k];
     const std::string times = joint.amplification ? short_number(*joint.amplification, digits) + " x static" : "";
-    text.line("    %-20s %s  %-11s at %.4g s  %s", building[joint.joint].name.c_str(), percent(joint.use.value).c_str(),
-              sense_names[static_cast<std::size_t>(joint.use.sense)], joint.at, times.c_str());
+    text.line("    %-20s %s  %-11s at %.4g s  %s", building[joint.joint].name.c_str(),
+              percent(joint.utilisation.value).c_str(), sense_names[static_cast<std::size_t>(joint.utilisation.sense)],
+              joint.at, times.c_str());
   }
 }
 
@@ -316,7 +317,7 @@ std::string summary_text(const Building& building, const AnalysisResult& result,
   }
   for (const std::string& missing : result.unfinished) text.line("not computed: %s", missing.c_str());
   for (const std::string& warning : result.warnings) text.line("warning: %s", warning.c_str());
-  return text.take();
+  return text.release();
 }
 
 }  // namespace topple::structure

@@ -55,7 +55,7 @@ Frame3ddTokens::Frame3ddTokens(std::string_view text, std::string file) : file_(
   }
 }
 
-const Frame3ddTokens::Token& Frame3ddTokens::take(const std::string& what) {
+const Frame3ddTokens::Token& Frame3ddTokens::next_token(const std::string& what) {
   if (at_end()) fail("the file ends where " + what + " is expected");
   last_line_ = tokens_[next_].line;
   return tokens_[next_++];
@@ -66,7 +66,7 @@ void Frame3ddTokens::fail(const std::string& problem) const {
 }
 
 double Frame3ddTokens::number(const std::string& what) {
-  std::string_view text = take(what).text;
+  std::string_view text = next_token(what).text;
   const std::string_view found = text;
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);  // from_chars takes no plus sign
   double value = 0;

@@ -35,7 +35,7 @@ class Frame3ddTokens {
     std::string_view text;
     int line = 0;
   };
-  const Token& take(const std::string& what);
+  const Token& next_token(const std::string& what);
 
   std::string file_, title_;
   std::vector<Token> tokens_;

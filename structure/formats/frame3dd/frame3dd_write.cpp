@@ -30,7 +30,7 @@ class Text {
     fresh_ = true;
   }
   void raw(std::string_view text) { text_ += text; }
-  [[nodiscard]] std::string take() { return std::move(text_); }
+  [[nodiscard]] std::string release() { return std::move(text_); }
 
  private:
   Text& word(std::string_view text) {
@@ -146,7 +146,7 @@ std::string frame3dd_text(const Frame3ddFile& file) {
   text.number(count(file.cases.size())).end("static load cases");
   for (std::size_t k = 0; k < file.cases.size(); ++k) write_case(text, file.cases[k], k);
   if (file.modes) write_modes(text, *file.modes);
-  return text.take();
+  return text.release();
 }
 
 }  // namespace topple::structure

@@ -40,7 +40,7 @@ class ModelWriter {
     loads();
     combinations();
     w_.close('}');
-    return w_.take() + "\n";
+    return w_.release() + "\n";
   }
 
  private:

@@ -4,6 +4,7 @@
 #include "formats/generator/generator_plan.h"
 #include "formats/generator/plan_generator.h"
 #include "formats/model_reader.h"
+#include "model/index_of.h"
 
 namespace topple::structure::formats {
 
@@ -174,7 +175,7 @@ class Generator {
     panel.panel.groups = groups(std::move(panel.panel.groups), k);
     const PanelId id = draft_.add_panel(panel, place);
     for (const auto& [load_case, pressure] : rule.pressures)
-      draft_.building.cases[static_cast<std::size_t>(load_case.index)].panels.push_back({id, pressure, 0});
+      draft_.building.cases[index_of(load_case)].panels.push_back({id, pressure, 0});
   }
 
   void add_posts() {

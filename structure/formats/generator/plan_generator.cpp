@@ -5,6 +5,7 @@
 #include <set>
 
 #include "formats/model_reader.h"
+#include "model/index_of.h"
 
 namespace topple::structure::formats {
 
@@ -167,7 +168,7 @@ class PlanGenerator {
     load.member = id;
     load.to = draft_.building[id].length;
     load.first(2) = load.last(2) = -weight;
-    draft_.building.cases[static_cast<std::size_t>(load_case.index)].members.push_back(load);
+    draft_.building.cases[index_of(load_case)].members.push_back(load);
   }
 
   MemberId add(const MemberDraft& rule, const std::string& name, std::array<std::size_t, 2> points,

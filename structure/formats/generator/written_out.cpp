@@ -65,7 +65,7 @@ class Writer {
     supports();
     loads();
     w_.close('}');
-    return w_.take() + "\n";
+    return w_.release() + "\n";
   }
 
  private:

@@ -39,7 +39,7 @@ class JsonDocument {
   /// Puts another number in the place of one.
   void replace_number(const JsonValue& at, double number);
   /// "model.json, line 12", or what stands for that line.
-  [[nodiscard]] std::string place(std::uint32_t line) const;
+  [[nodiscard]] std::string location(std::uint32_t line) const;
 
  private:
   friend class JsonValue;

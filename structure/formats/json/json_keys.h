@@ -6,7 +6,7 @@ namespace topple::structure::formats {
 
 /// Keeps the default where the key is absent.
 template <class Target, class Read>
-void take(const JsonValue& object, std::string_view key, Target& target, Read read) {
+void read_optional(const JsonValue& object, std::string_view key, Target& target, Read read) {
   if (const auto value = object.find(key)) target = read(*value);
 }
 

@@ -93,7 +93,7 @@ JsonTree::JsonTree(std::initializer_list<Item> items) {
   std::vector<Field>& fields = value_.emplace<Fields>().all;
   fields.reserve(items.size());
   for (const Item& item : items) {
-    JsonTree pair = item.take();
+    JsonTree pair = item.extract();
     List& both = std::get<List>(pair.value_);
     fields.push_back({std::move(std::get<std::string>(both[0].value_)), std::move(both[1])});
   }
@@ -103,7 +103,7 @@ JsonTree JsonTree::array(std::initializer_list<Item> items) {
   JsonTree tree;
   List& list = tree.value_.emplace<List>();
   list.reserve(items.size());
-  for (const Item& item : items) list.push_back(item.take());
+  for (const Item& item : items) list.push_back(item.extract());
   return tree;
 }
 

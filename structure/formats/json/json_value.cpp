@@ -163,13 +163,13 @@ void JsonDocument::replace_number(const JsonValue& at, double number) {
   slots_[at.index_].number = number;
 }
 
-std::string JsonDocument::place(std::uint32_t line) const {
+std::string JsonDocument::location(std::uint32_t line) const {
   if (line >= 1 && line <= places_.size()) return places_[line - 1];
   return name_ + ", line " + std::to_string(line);
 }
 
 void JsonValue::fail(const std::string& what) const {
-  throw PlacedInputError({document_->place(slot().line), path()}, what);
+  throw PlacedInputError({document_->location(slot().line), path()}, what);
 }
 
 void JsonValue::refuse(std::string_view accepted) const {
@@ -200,7 +200,7 @@ void write_value(JsonWriter& writer, const JsonValue& value) {
 std::string text_of(const JsonValue& value) {
   JsonWriter writer;
   write_value(writer, value);
-  return writer.take();
+  return writer.release();
 }
 
 }  // namespace topple::structure::formats

@@ -119,7 +119,7 @@ class JsonWriter {
     return *this;
   }
   /// All of the text.
-  [[nodiscard]] std::string take() {
+  [[nodiscard]] std::string release() {
     text_.resize(used_);
     used_ = 0;
     return std::move(text_);
@@ -194,7 +194,7 @@ class JsonWriter {
 /// A name as the key of an object, for raw_key().
 [[nodiscard]] inline std::string json_key(std::string_view name) {
   JsonWriter writer;
-  return writer.key(name).take();
+  return writer.key(name).release();
 }
 
 }  // namespace topple::structure

@@ -197,7 +197,7 @@ void CsvTable::find_decimal_sign() {
            "which may mean a thousand; accepted: cells separated by commas, or a number that means one thing");
 }
 
-std::string CsvTable::place(std::size_t row) const { return name_ + ", line " + std::to_string(lines_[row]); }
+std::string CsvTable::location(std::size_t row) const { return name_ + ", line " + std::to_string(lines_[row]); }
 
 std::string_view CsvTable::cell(std::size_t row, std::size_t column) const {
   return cells_[row * columns_.size() + column];
@@ -227,7 +227,7 @@ std::optional<double> CsvTable::number(std::size_t row, std::size_t column) cons
 }
 
 void CsvTable::fail(std::size_t row, std::size_t column, const std::string& what) const {
-  throw PlacedInputError({place(row), std::string(columns_[column])}, what);
+  throw PlacedInputError({location(row), std::string(columns_[column])}, what);
 }
 
 void CsvTable::fail_line(std::uint32_t line, const std::string& what) const {

@@ -22,7 +22,7 @@ class CsvTable {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] std::size_t rows() const { return lines_.size(); }
   /// "folder/nodes.csv, line 5"
-  [[nodiscard]] std::string place(std::size_t row) const;
+  [[nodiscard]] std::string location(std::size_t row) const;
 
   /// The cell's text; empty: the key is absent.
   [[nodiscard]] std::string_view cell(std::size_t row, std::size_t column) const;

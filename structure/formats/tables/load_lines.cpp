@@ -72,14 +72,14 @@ class LoadLines {
   }
 
   void write_case(const CsvTable& table, const Case& load_case, bool first) {
-    put((first ? "" : ",") + json_text(load_case.name) + ":{", table.place(load_case.first_row));
+    put((first ? "" : ",") + json_text(load_case.name) + ":{", table.location(load_case.first_row));
     bool any = self_weight(table, load_case);
     const auto group = [&](std::string_view acts_on, const char* key, auto write) {
       bool opened = false;
       for (const Part& part : load_case.parts) {
         if (part.on != acts_on) continue;
         if (!opened) put((any ? "," : "") + json_text(key) + ":{", table.name());
-        put((opened ? "," : "") + json_text(part.name) + ":", table.place(part.rows.front()));
+        put((opened ? "," : "") + json_text(part.name) + ":", table.location(part.rows.front()));
         opened = any = true;
         write(part);
       }
@@ -109,7 +109,7 @@ class LoadLines {
       if (axis.empty()) {
         if (load_case.own_rows.size() > 1)
           table.fail(row, component, "self weight stands twice in this case; accepted: once, or x, y and z");
-        put("\"self_weight\":" + number, table.place(row));
+        put("\"self_weight\":" + number, table.location(row));
         return true;
       }
       const std::size_t i = axis == "x" ? 0 : axis == "y" ? 1 : axis == "z" ? 2 : 3;
@@ -120,7 +120,7 @@ class LoadLines {
       vector[i] = number;
     }
     put("\"self_weight\":[" + vector[0] + "," + vector[1] + "," + vector[2] + "]",
-        table.place(load_case.own_rows.front()));
+        table.location(load_case.own_rows.front()));
     return true;
   }
 
@@ -140,7 +140,7 @@ class LoadLines {
         table.fail(row, type, "found " + in_quotes(table.cell(row, type)) + "; accepted: " + in_quotes(kind));
       const std::string axis(table.text(row, component));
       if (!seen.insert(axis).second) table.fail(row, component, in_quotes(axis) + " stands twice; accepted: each once");
-      put((seen.size() == 1 ? "" : ",") + json_text(axis) + ":" + needed(table, row, value), table.place(row));
+      put((seen.size() == 1 ? "" : ",") + json_text(axis) + ":" + needed(table, row, value), table.location(row));
     }
     put("}", table.name());
   }
@@ -152,7 +152,7 @@ class LoadLines {
       only_cells(table, row, {type, value});
       const std::string kind(table.text(row, type));
       if (!seen.insert(kind).second) table.fail(row, type, in_quotes(kind) + " stands twice; accepted: each once");
-      put((seen.size() == 1 ? "" : ",") + json_text(kind) + ":" + needed(table, row, value), table.place(row));
+      put((seen.size() == 1 ? "" : ",") + json_text(kind) + ":" + needed(table, row, value), table.location(row));
     }
     put("}", table.name());
   }
@@ -164,14 +164,14 @@ class LoadLines {
       const std::size_t row = rows[k];
       const std::string kind(table.text(row, type));
       check_member_load(table, row, kind);
-      put((k == 0 ? "{" : ",{") + json_text(kind) + ":{", table.place(row));
+      put((k == 0 ? "{" : ",{") + json_text(kind) + ":{", table.location(row));
       std::set<std::string, std::less<>> seen;
       for (; k < rows.size() && (seen.empty() || alike(table, row, rows[k])); ++k) {
         check_member_load(table, rows[k], kind);
         const std::string axis(table.text(rows[k], component));
         if (seen.contains(axis)) break;
         put((seen.empty() ? "" : ",") + json_text(axis) + ":" + member_value(table, rows[k], kind),
-            table.place(rows[k]));
+            table.location(rows[k]));
         seen.insert(axis);
       }
       std::string end = "}";
@@ -182,7 +182,7 @@ class LoadLines {
         if (const auto stop = table.number(row, to)) end += ",\"to\":" + json_number(*stop);
       }
       if (!table.cell(row, frame).empty()) end += ",\"frame\":" + json_text(table.cell(row, frame));
-      put(end + "}", table.place(row));
+      put(end + "}", table.location(row));
     }
     put("]", table.name());
   }
@@ -230,14 +230,14 @@ std::vector<MadeLine> combination_lines(const CsvTable& table) {
   }
   std::vector<MadeLine> lines;
   for (std::size_t k = 0; k < list.size(); ++k) {
-    lines.push_back({(k == 0 ? "" : ",") + json_text(list[k].first) + ":{", table.place(list[k].second.front())});
+    lines.push_back({(k == 0 ? "" : ",") + json_text(list[k].first) + ":{", table.location(list[k].second.front())});
     std::set<std::string, std::less<>> seen;
     for (const std::size_t row : list[k].second) {
       const std::string load_case(table.text(row, 1));
       if (!seen.insert(load_case).second)
         table.fail(row, 1, in_quotes(load_case) + " stands twice in this combination; accepted: each once");
       lines.push_back(
-          {(seen.size() == 1 ? "" : ",") + json_text(load_case) + ":" + needed(table, row, 2), table.place(row)});
+          {(seen.size() == 1 ? "" : ",") + json_text(load_case) + ":" + needed(table, row, 2), table.location(row)});
     }
     lines.push_back({"}", table.name()});
   }

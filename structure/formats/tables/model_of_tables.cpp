@@ -104,12 +104,13 @@ class ModelMaker {
     for (std::size_t row = 0; row < table.rows(); ++row) {
       const std::string_view part = table.text(row, 0);
       if (const auto [first, is_new] = seen.try_emplace(part, row); !is_new)
-        table.fail(row, 0,
-                   in_quotes(part) + " stands twice, first in " + table.place(first->second) + "; accepted: each once");
+        table.fail(
+            row, 0,
+            in_quotes(part) + " stands twice, first in " + table.location(first->second) + "; accepted: each once");
       line_ = row == 0 ? "" : ",";
       line_ += json_text(part) + ":";
       write(table, row);
-      put(line_, table.place(row));
+      put(line_, table.location(row));
     }
     put("}", table.name());
   }
@@ -132,16 +133,16 @@ class ModelMaker {
       const std::string key(table.text(row, 0));
       if (!seen.insert(key).second) table.fail(row, 0, in_quotes(key) + " stands twice; accepted: each once");
       if (key == "title") {
-        put(",\"title\":" + json_text(table.cell(row, 1)), table.place(row));
+        put(",\"title\":" + json_text(table.cell(row, 1)), table.location(row));
       } else if (key == "gravity") {
         (void)table.text(row, 1);
-        put(",\"gravity\":" + json_number(*table.number(row, 1)), table.place(row));
+        put(",\"gravity\":" + json_number(*table.number(row, 1)), table.location(row));
       } else if (key == "length" || key == "force" || key == "mass") {
         units.emplace_back(key, row);
       } else if (key == "units") {
         if (table.cell(row, 1) != "consistent")
           table.fail(row, 1, "found " + in_quotes(table.cell(row, 1)) + "; accepted: \"consistent\"");
-        put(",\"units\":\"consistent\"", table.place(row));
+        put(",\"units\":\"consistent\"", table.location(row));
       } else {
         table.fail(row, 0,
                    "found " + in_quotes(key) +
@@ -158,7 +159,7 @@ class ModelMaker {
       line_.clear();
       if (!first) line_ = ",";
       first = false;
-      put(line_ + json_text(key) + ":" + json_text(table.text(row, 1)), table.place(row));
+      put(line_ + json_text(key) + ":" + json_text(table.text(row, 1)), table.location(row));
     }
     put("}", table.name());
   }

@@ -13,7 +13,7 @@ namespace topple::structure::formats {
 inline std::string json_text(std::string_view text) {
   const bool plain = std::all_of(text.begin(), text.end(),
                                  [](char c) { return c != '"' && c != '\\' && static_cast<unsigned char>(c) >= 0x20; });
-  if (!plain) return JsonWriter().value(text).take();
+  if (!plain) return JsonWriter().value(text).release();
   std::string result;
   result.reserve(text.size() + 2);
   result += '"';

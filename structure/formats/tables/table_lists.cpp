@@ -83,10 +83,10 @@ std::vector<MadeLine> diaphragm_lines(const CsvTable& table) {
   enum Column : std::size_t { name, node };
   std::vector<MadeLine> lines;
   for (const auto& [diaphragm, rows] : groups_of(table, name, all_rows(table))) {
-    lines.push_back({(lines.empty() ? "" : ",") + json_text(diaphragm) + ":[", table.place(rows.front())});
+    lines.push_back({(lines.empty() ? "" : ",") + json_text(diaphragm) + ":[", table.location(rows.front())});
     for (const std::size_t row : rows)
-      lines.push_back({(row == rows.front() ? "" : ",") + json_text(table.text(row, node)), table.place(row)});
-    lines.push_back({"]", table.place(rows.back())});
+      lines.push_back({(row == rows.front() ? "" : ",") + json_text(table.text(row, node)), table.location(row)});
+    lines.push_back({"]", table.location(rows.back())});
   }
   return lines;
 }
@@ -104,7 +104,7 @@ std::vector<MadeLine> mass_lines(const CsvTable& table) {
       if (table.cell(row, on) != kind) continue;
       const std::string part(table.text(row, name));
       if (seen.empty())
-        lines.push_back({(lines.empty() ? "" : ",") + json_text(std::string(kind) + "s") + ":{", table.place(row)});
+        lines.push_back({(lines.empty() ? "" : ",") + json_text(std::string(kind) + "s") + ":{", table.location(row)});
       if (!seen.insert(part).second) table.fail(row, name, in_quotes(part) + " stands twice; accepted: each once");
       std::string mass = needed(table, row, value);
       bool inertia = false;
@@ -116,7 +116,7 @@ std::vector<MadeLine> mass_lines(const CsvTable& table) {
         for (std::size_t c = first_inertia; c < end; ++c) mass += "," + needed(table, row, c);
         mass += "]";
       }
-      lines.push_back({(seen.size() == 1 ? "" : ",") + json_text(part) + ":" + mass, table.place(row)});
+      lines.push_back({(seen.size() == 1 ? "" : ",") + json_text(part) + ":" + mass, table.location(row)});
     }
     if (!seen.empty()) lines.push_back({"}", table.name()});
   }
@@ -143,7 +143,7 @@ std::vector<MadeLine> cut_lines(const CsvTable& table) {
       left.remove_prefix(std::min(end + 1, left.size()));
     }
     if (!list.empty()) line += ",\"parts\":[" + list + "]";
-    lines.push_back({line + "}", table.place(row)});
+    lines.push_back({line + "}", table.location(row)});
   }
   return lines;
 }

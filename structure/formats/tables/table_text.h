@@ -59,7 +59,7 @@ class TableText {
     ++rows_;
   }
   [[nodiscard]] std::size_t rows() const { return rows_; }
-  [[nodiscard]] std::string take() { return std::move(text_); }
+  [[nodiscard]] std::string release() { return std::move(text_); }
 
  private:
   [[nodiscard]] std::size_t index(std::string_view column) const {

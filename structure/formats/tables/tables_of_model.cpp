@@ -49,7 +49,7 @@ class TableMaker {
 
  private:
   void keep(std::string_view file, TableText& table) {
-    if (table.rows() > 0 || file == "nodes.csv") files_.emplace_back(file, table.take());
+    if (table.rows() > 0 || file == "nodes.csv") files_.emplace_back(file, table.release());
   }
 
   /// Columns (by how their names begin) that are written only where some part has their key.

@@ -10,7 +10,7 @@ void BodyAccount::count_contacts() {
   contacts_.clear();
   for (const collision::Contact& contact : scene_.world->contacts()) {
     sums_.ledger.lost_in_contacts += contact.work_lost;
-    if (is_felt(contact)) contacts_.push_back(felt(contact));
+    if (is_recorded(contact)) contacts_.push_back(record_of(contact));
   }
   for (const auto& [id, hung] : debris_.cables)
     sums_.ledger.lost_in_contacts += scene_.world->cable_pull(hung.cable).work_lost;

@@ -189,7 +189,7 @@ struct CollapseAnimation::State {
     node->show(at, true);
   }
 
-  /// Pieces of the drawn model: each cut makes new ones.
+  /// Pieces of the visual mesh: each cut makes new ones.
   void add_drawn(const Simulation& simulation, int at) {
     std::map<std::int64_t, const BodyView*> bodies;
     for (const BodyView& body : simulation.bodies()) bodies.emplace(body.id.value, &body);

@@ -25,7 +25,7 @@ class EventLog {
   /// Each listener gets, once, what it has not heard.
   void call_listeners();
   /// Gives the listeners of this log away.
-  [[nodiscard]] std::vector<std::function<void(const SimulationEvent&)>> take_listeners() {
+  [[nodiscard]] std::vector<std::function<void(const SimulationEvent&)>> extract_listeners() {
     return std::move(listeners_);
   }
   /// Listeners of another log of the same run, who hear nothing again: neither of what is here already.

@@ -1,5 +1,5 @@
 #pragma once
-// What stays inside each other is told by name, when it is seen: bodies split and go.
+// Bodies that stay inside each other. Their names are recorded when that is seen, as bodies may split or leave later.
 #include "simulation/debris/debris.h"
 #include "topple/collision/overlap_watch.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Wall time of a step by stage, and of the collision engine within it. Times are told, they never decide anything.
+// Wall time of a step by stage, and of the collision engine within it. Times are reported; no decision depends on them.
 #include <array>
 #include <chrono>
 
@@ -17,7 +17,7 @@ class StageTimer {
     const Span span(stages_[index]);
     return work();
   }
-  /// Of a stage's work within that of another and of the collision engine: booked there, and not here.
+  /// Of a stage's work within that of another and of the collision engine: counted there, and not here.
   template <class Work>
   void within(std::size_t outer, std::size_t index, const Work& work) {
     double took = 0;

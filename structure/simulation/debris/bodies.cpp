@@ -17,7 +17,7 @@ void remove(std::vector<std::int64_t>& ids, std::int64_t id) {
   if (found != ids.end() && *found == id) ids.erase(found);
 }
 
-auto place(std::vector<BodyMotion>& motions, std::int64_t id) {
+auto find_motion(std::vector<BodyMotion>& motions, std::int64_t id) {
   return std::lower_bound(motions.begin(), motions.end(), id,
                           [](const BodyMotion& one, std::int64_t wanted) { return one.id < wanted; });
 }
@@ -33,7 +33,7 @@ Body& Bodies::add(std::int64_t id, Body one) {
   motion.body = &body;
   motion.mass = body.rest.mass;
   motion.reach = body.bounds.low.cwiseAbs().cwiseMax(body.bounds.high.cwiseAbs()).norm();
-  motions_.insert(place(motions_, id), motion);
+  motions_.insert(find_motion(motions_, id), motion);
   if (body.members.empty() && body.panels.size() == 1) insert(single_panels_, id);
   if (body.members.size() + body.panels.size() > 1 && !body.members.empty()) insert(composed_, id);
   return body;
@@ -41,13 +41,13 @@ Body& Bodies::add(std::int64_t id, Body one) {
 
 void Bodies::erase(std::int64_t id) {
   if (all_.erase(id) == 0) return;
-  motions_.erase(place(motions_, id));
+  motions_.erase(find_motion(motions_, id));
   remove(single_panels_, id);
   remove(composed_, id);
 }
 
 BodyMotion& Bodies::motion(std::int64_t id) {
-  const auto found = place(motions_, id);
+  const auto found = find_motion(motions_, id);
   if (found == motions_.end() || found->id != id)
     throw std::out_of_range("body " + std::to_string(id) + " is not there");
   return *found;

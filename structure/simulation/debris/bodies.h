@@ -1,6 +1,6 @@
 #pragma once
-// The moving bodies, in order of id. What every step goes through for all of them lies side by side in memory; so are
-// those known that impacts are looked up for: few, where most are chunks.
+// The moving bodies, in order of id. What each step reads of all of them lies in one array. Bodies for which impacts
+// are sought are listed on their own: they are few, as most bodies are chunks.
 #include <cstdint>
 #include <map>
 #include <span>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "model/index_of.h"
 #include "simulation/debris/debris_settings.h"
 #include "simulation/debris/momentum.h"
 #include "simulation/impact/first_failure.h"
@@ -73,9 +74,7 @@ Body BreakUp::describe(const Detached& part) const {
   return one;
 }
 
-bool BreakUp::holds(JointId joint) const {
-  return scene_.frame->intact(joint) && broken_[static_cast<std::size_t>(joint.index)] == 0;
-}
+bool BreakUp::holds(JointId joint) const { return scene_.frame->intact(joint) && broken_[index_of(joint)] == 0; }
 
 /// Only where a panel can break: others come down whole, with what most of their corners are joined to.
 std::optional<std::array<double, 4>> BreakUp::free_panel_edges(PanelId id) const {
@@ -191,8 +190,8 @@ bool BreakUp::break_joints_of(const BodyActions& loading) {
   std::vector<std::pair<JointId, Utilisation>> over;
   double largest = 1;
   for (const auto& [joint, demand] : answer.demands) {
-    const Utilisation used = utilisation(scene_.building[joint].capacity, demand,
-                                         scene_.strength_factors[static_cast<std::size_t>(joint.index)]);
+    const Utilisation used =
+        utilisation(scene_.building[joint].capacity, demand, scene_.strength_factors[index_of(joint)]);
     if (!(used.value > 1)) continue;
     over.emplace_back(joint, used);
     largest = std::max(largest, used.value);
@@ -254,7 +253,7 @@ std::vector<collision::BodyId> BreakUp::split(collision::BodyId id, const std::v
   const collision::BodyState state = scene_.world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   (void)debris_.resting.forget(id, *scene_.frame, false);
-  const std::vector<JointId> hung = hinges_.take_off(id);
+  const std::vector<JointId> hung = hinges_.unhook(id);
   debris_.remove(id);
   forget(id);
 

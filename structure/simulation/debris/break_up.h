@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/index_of.h"
 #include "simulation/accounts/event_log.h"
 #include "simulation/accounts/piece_views.h"
 #include "simulation/accounts/running_sums.h"
@@ -45,7 +46,7 @@ class BreakUp {
   /// The joint holds, in the frame or in what left it.
   [[nodiscard]] bool holds(JointId joint) const;
   /// The joint of a body broke.
-  void lose(JointId joint) { broken_[static_cast<std::size_t>(joint.index)] = 1; }
+  void lose(JointId joint) { broken_[index_of(joint)] = 1; }
   /// Lengths, m, of the edges by which a panel that can break is still joined; nothing for one that cannot: it comes
   /// down whole, with what most of its corners are joined to.
   [[nodiscard]] std::optional<std::array<double, 4>> free_panel_edges(PanelId panel) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/index_of.h"
+
 namespace topple::structure {
 
 Debris::Debris(Scene& the_scene)
@@ -82,7 +84,7 @@ collision::BodyId Debris::add(Body one, const collision::BodyState& state) {
   description.friction = scene.scenario.debris.friction;
   description.restitution = scene.scenario.debris.restitution;
   one.id = scene.timer.engine([&] { return scene.world->add_body(description); });
-  for (const MemberId member : one.members) body_of_part[static_cast<std::size_t>(member.index)] = one.id.value;
+  for (const MemberId member : one.members) body_of_part[index_of(member)] = one.id.value;
   for (const PanelId panel : one.panels)
     body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))] = one.id.value;
   const collision::BodyId id = one.id;
@@ -96,8 +98,7 @@ void Debris::pass(collision::BodyId id, const collision::Touched& other) {
 }
 
 collision::BodyId Debris::body_with(const ContactPlace& place) const {
-  if (place.member.valid())
-    return {std::max<std::int64_t>(-1, body_of_part[static_cast<std::size_t>(place.member.index)])};
+  if (place.member.valid()) return {std::max<std::int64_t>(-1, body_of_part[index_of(place.member)])};
   for (const auto& [id, one] : bodies)
     if (std::find(one.nodes.begin(), one.nodes.end(), place.node) != one.nodes.end()) return {id};
   return {};

@@ -1,5 +1,6 @@
 #pragma once
-// The numbers that decide where debris begins, what it passes, and when what it lies on hears of it.
+// Constants of debris: where a body begins, what it passes through, and how much a load that it lays on what stands
+// must change before the frame is solved again.
 
 namespace topple::structure {
 

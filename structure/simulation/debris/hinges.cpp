@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/index_of.h"
 #include "simulation/debris/debris_settings.h"
 #include "topple/structure/joint_check.h"
 
@@ -96,12 +97,12 @@ void Hinges::hang_on_what_left() {
     if (!(on.member.valid() ? scene_.frame->stands(on.member) : scene_.frame->stands(on.node))) loose.push_back(hung);
   }
   for (const Hung& hung : loose) {
-    take_off(hung);
+    unhook(hung);
     hang_on({hung.joint}, hung.body);
   }
 }
 
-void Hinges::take_off(const Hung& hung) {
+void Hinges::unhook(const Hung& hung) {
   scene_.frame->remove_contact_load(hung.load_key);
   scene_.world->remove_hinge(hung.hinge);
   holds_.let_go(hung.place);
@@ -109,14 +110,14 @@ void Hinges::take_off(const Hung& hung) {
 }
 
 /// The body is about to go: it hangs on nothing any more, and nothing on it. Returns the joints of both kinds.
-std::vector<JointId> Hinges::take_off(collision::BodyId id) {
+std::vector<JointId> Hinges::unhook(collision::BodyId id) {
   std::vector<Hung> its;
   for (const auto& [key, hung] : hinges_)
     if (hung.body == id || hung.holder == id) its.push_back(hung);
   std::vector<JointId> joints;
   for (const Hung& hung : its) {
     joints.push_back(hung.joint);
-    take_off(hung);
+    unhook(hung);
   }
   return joints;
 }
@@ -162,7 +163,7 @@ void Hinges::pull() {
     const Body& one = debris_.bodies.at(hung.body.value);
     line.position = scene_.world->state(hung.body).pose * Vec3(scene_.joint_position(hung.joint) - one.rest.centre);
     log_.record(line);
-    take_off(hung);
+    unhook(hung);
   }
 }
 
@@ -177,7 +178,7 @@ Utilisation Hinges::utilisation_of(const Hung& hung, const Vec3& force, const Ve
   end_forces.segment<3>(6 * joint.end) = sign * axes * force;
   end_forces.segment<3>(6 * joint.end + 3) = sign * axes * moment;
   return utilisation(joint.capacity, member_joint_demand(end_forces, joint.end),
-                     scene_.strength_factors[static_cast<std::size_t>(hung.joint.index)]);
+                     scene_.strength_factors[index_of(hung.joint)]);
 }
 
 void Hinges::smooth(Hung& hung, const Vec3& force, const Vec3& moment) const {

@@ -1,7 +1,7 @@
 #pragma once
-// What moves as a mechanism hangs on by the joints that still hold it: on what stands, or on another body. They turn
-// freely in what is released and hold in the rest; what they hold with loads what they hang on, and one that comes to
-// its capacity breaks.
+// Hinges by which debris hangs. A part that moves as a mechanism stays joined to what stands, or to another body, by
+// joints that still hold: they turn freely in the directions that are released and hold in the others. Their forces
+// load what they hang on, and one that reaches its capacity breaks.
 #include <map>
 #include <span>
 #include <vector>
@@ -26,7 +26,7 @@ class Hinges {
   /// After a body fell apart: what it hung by, and what hung on it, goes on with the piece that has its side.
   void hang_again(const std::vector<JointId>& joints);
   /// The body is about to go: it hangs on nothing any more, and nothing on it. Returns the joints of both kinds.
-  std::vector<JointId> take_off(collision::BodyId id);
+  std::vector<JointId> unhook(collision::BodyId id);
   /// For a substep of `dt`: what moves bears what these pull with, as it is. Returns those that act, each about its
   /// place.
   std::vector<collision::HingePull> act(std::span<const collision::HingePull> pulls, double dt);
@@ -50,7 +50,7 @@ class Hinges {
     bool acted = false;  ///< in substeps of this step: its smoothed pull does not act as well
   };
   bool hang(JointId joint, collision::BodyId id);
-  void take_off(const Hung& hung);
+  void unhook(const Hung& hung);
   void pass_what_holds(collision::BodyId id, const Vec3& point, collision::BodyId holder);
   void smooth(Hung& hung, const Vec3& force, const Vec3& moment) const;
   void load_by(Hung& hung);

@@ -15,7 +15,7 @@ std::optional<PartMotion> MovingParts::velocity(collision::ObstacleId id) const 
 }
 
 /// And its mass.
-collision::ObstacleMotion MovingParts::place(collision::ObstacleId id) const {
+collision::ObstacleMotion MovingParts::pose_and_mass(collision::ObstacleId id) const {
   const Part part = debris_.obstacles.part_of(id);
   if (!part.valid()) return hinges_.holds().motion(id);
   const MassProperties& own = part.member.valid() ? debris_.masses.of(part.member) : debris_.masses.of(part.panel);
@@ -34,7 +34,7 @@ std::optional<collision::ObstacleMotion> MovingParts::motion(collision::Obstacle
   }
   Known& known = known_[id.value];
   known.velocity = *now;
-  collision::ObstacleMotion motion = place(id);
+  collision::ObstacleMotion motion = pose_and_mass(id);
   motion.velocity = known.velocity.moved;
   motion.angular_velocity = known.velocity.turned;
   motion.acceleration = known.acceleration.moved;

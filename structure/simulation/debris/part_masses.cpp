@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/index_of.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -37,7 +38,7 @@ PartMasses::PartMasses(const Building& building, CombinationId combination, cons
 
 MassProperties PartMasses::of(const Building& building, MemberId id, double from, double to) const {
   const Member& member = building[id];
-  const auto& all = member_loads_[static_cast<std::size_t>(id.index)];
+  const auto& all = member_loads_[index_of(id)];
   std::vector<solver::BeamLoad> there;
   for (solver::BeamLoad load : all) {
     if (load.kind == solver::BeamLoad::Kind::point) {

@@ -2,6 +2,7 @@
 // Mass properties of every part of a building in one combination, and of bodies made of parts.
 #include <vector>
 
+#include "model/index_of.h"
 #include "simulation/debris/mass_properties.h"
 #include "topple/structure/standing_frame.h"
 
@@ -12,14 +13,14 @@ class PartMasses {
   /// Throws InputError naming a member or panel whose mass is not above zero.
   PartMasses(const Building& building, CombinationId combination, const StandingFrame& frame);
 
-  [[nodiscard]] const MassProperties& of(MemberId id) const { return members_[static_cast<std::size_t>(id.index)]; }
-  [[nodiscard]] const MassProperties& of(PanelId id) const { return panels_[static_cast<std::size_t>(id.index)]; }
-  [[nodiscard]] const MassProperties& of(NodeId id) const { return nodes_[static_cast<std::size_t>(id.index)]; }
+  [[nodiscard]] const MassProperties& of(MemberId id) const { return members_[index_of(id)]; }
+  [[nodiscard]] const MassProperties& of(PanelId id) const { return panels_[index_of(id)]; }
+  [[nodiscard]] const MassProperties& of(NodeId id) const { return nodes_[index_of(id)]; }
   [[nodiscard]] MassProperties of(const Detached& part) const;
   /// Of a stretch of a member, in distances from its first end, the upper limit left out unless it is the member's end.
   [[nodiscard]] MassProperties of(const Building& building, MemberId id, double from, double to) const;
   /// What is left of a broken panel.
-  void set(PanelId id, const MassProperties& left) { panels_[static_cast<std::size_t>(id.index)] = left; }
+  void set(PanelId id, const MassProperties& left) { panels_[index_of(id)] = left; }
 
  private:
   std::vector<MassProperties> members_, panels_, nodes_;

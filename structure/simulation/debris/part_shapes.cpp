@@ -1,4 +1,5 @@
 #include "simulation/debris/part_shapes.h"
+#include "model/index_of.h"
 #include "simulation/debris/debris_settings.h"
 
 #include <Eigen/Geometry>
@@ -36,8 +37,7 @@ Vec2 section_size(const Section& section) {
 PartShapes::PartShapes(const Building& building) : members_(building.members.size()) {
   members_at_node_.resize(building.nodes.size());
   for (std::size_t i = 0; i < building.members.size(); ++i)
-    for (const NodeId node : building.members[i].nodes)
-      members_at_node_[static_cast<std::size_t>(node.index)].push_back(MemberId(i));
+    for (const NodeId node : building.members[i].nodes) members_at_node_[index_of(node)].push_back(MemberId(i));
   shapes_.reserve(part_count(building));
   for (std::size_t i = 0; i < building.members.size(); ++i) shapes_.push_back(member_shape(building, MemberId(i)));
   for (std::size_t i = 0; i < building.panels.size(); ++i) shapes_.push_back(panel_shape(building, PanelId(i)));
@@ -45,7 +45,7 @@ PartShapes::PartShapes(const Building& building) : members_(building.members.siz
 
 double PartShapes::clearance(const Building& building, NodeId node, MemberId except, const Vec3& direction) const {
   double clear = 0;
-  for (const MemberId other : members_at_node_[static_cast<std::size_t>(node.index)]) {
+  for (const MemberId other : members_at_node_[index_of(node)]) {
     if (other == except) continue;
     const Member& member = building[other];
     clear = std::max(clear, half_extent(member, section_size(building[member.section]), direction));
@@ -81,7 +81,7 @@ double PartShapes::edge_inset(const Building& building, const Panel& panel, int 
   const Vec3 across = along.cross(Vec3(panel.axes.row(2).transpose()));
   double inset = 0;
   for (const NodeId node : {first, second})
-    for (const MemberId id : members_at_node_[static_cast<std::size_t>(node.index)]) {
+    for (const MemberId id : members_at_node_[index_of(node)]) {
       const Member& member = building[id];
       // Members along the edge, and those that pierce the panel's plane at its corners (posts through a floor): a slab
       // that falls must not start inside the posts beside it, nor hang between them.
@@ -142,8 +142,7 @@ PartShapes::Shape PartShapes::panel_shape(const Building& building, PanelId id) 
 }
 
 const PartShapes::Shape& PartShapes::of(Part part) const {
-  return part.member.valid() ? shapes_[static_cast<std::size_t>(part.member.index)]
-                             : shapes_[members_ + static_cast<std::size_t>(part.panel.index)];
+  return part.member.valid() ? shapes_[index_of(part.member)] : shapes_[members_ + index_of(part.panel)];
 }
 
 const Bounds& PartShapes::bounds(Part part) const { return of(part).bounds; }

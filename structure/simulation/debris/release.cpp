@@ -8,7 +8,7 @@
 namespace topple::structure {
 
 void Release::release() {
-  for (Detached& part : scene.frame->take_detached()) {
+  for (Detached& part : scene.frame->extract_detached()) {
     // Of a panel that is broken out altogether nothing is left to leave.
     std::erase_if(part.panels, [&](PanelId panel) {
       const BrokenPanel* left = panels.broken(panel);
@@ -91,7 +91,7 @@ void Release::remove_body(collision::BodyId id, bool keep_weight) {
   for (std::int64_t& of_part : debris.body_of_part)
     if (of_part == id.value) of_part = -2;
   debris.freeze(debris.resting.forget(id, *scene.frame, keep_weight));
-  (void)hinges.take_off(id);
+  (void)hinges.unhook(id);
   scene.timer.engine([&] { scene.world->remove_body(id); });
   break_up.forget(id);
   debris.cables.erase(id.value);

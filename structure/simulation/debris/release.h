@@ -1,5 +1,5 @@
 #pragma once
-// Release: what lost its hold on the frame becomes rigid bodies with true mass, centre and inertia.
+// The release stage: parts that the frame no longer holds become rigid bodies with their mass, centre and inertia.
 #include <optional>
 
 #include "simulation/debris/release_impulses.h"

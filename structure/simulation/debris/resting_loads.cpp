@@ -1,4 +1,5 @@
 #include "simulation/debris/resting_loads.h"
+#include "model/index_of.h"
 #include "simulation/debris/debris_settings.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 double local_capacity(const Building& building, Part part, std::span<const double> strength) {
   double least = unlimited;
   const auto value = [&](JointId id, Sense sense) {
-    return building[id].capacity.value[static_cast<std::size_t>(sense)] * strength[static_cast<std::size_t>(id.index)];
+    return building[id].capacity.value[static_cast<std::size_t>(sense)] * strength[index_of(id)];
   };
   if (part.member.valid()) {
     const double length = building[part.member].length;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/index_of.h"
 #include "simulation/debris/debris.h"
 #include "simulation/fracture/broken_panel.h"
 
@@ -23,7 +24,7 @@ class BreakablePanels {
   /// Panels that have openings from the start have the shape of what is there.
   void open();
 
-  [[nodiscard]] const BreakablePanel& of(PanelId panel) const { return panels_[static_cast<std::size_t>(panel.index)]; }
+  [[nodiscard]] const BreakablePanel& of(PanelId panel) const { return panels_[index_of(panel)]; }
   [[nodiscard]] bool can_break(PanelId panel) const { return of(panel).settings.has_value(); }
   [[nodiscard]] bool any() const { return any_; }
   /// The panel that a body consists of, when nothing else belongs to it and it can break.

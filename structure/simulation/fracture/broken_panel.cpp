@@ -113,7 +113,7 @@ BrokenPanel::BrokenPanel(const Building& building, PanelId id, double mass, cons
 }
 
 std::vector<PanelChunk> BrokenPanel::hit(const Vec3& at, std::optional<double> radius) {
-  return take(panel_.hit(plane_.flat(at), radius));
+  return chunks_of(panel_.hit(plane_.flat(at), radius));
 }
 
 std::vector<PanelChunk> BrokenPanel::hit_through(const Vec3& at, std::optional<double> first, double radius) {
@@ -133,14 +133,14 @@ std::vector<PanelChunk> BrokenPanel::hit_through(const Vec3& at, std::optional<d
 
 std::vector<PanelChunk> BrokenPanel::hold(const std::array<bool, 4>& held) {
   held_ = held;
-  return take(panel_.hold(std::vector<bool>(held.begin(), held.end())));
+  return chunks_of(panel_.hold(std::vector<bool>(held.begin(), held.end())));
 }
 
-std::vector<PanelChunk> BrokenPanel::leave() { return take(panel_.leave()); }
+std::vector<PanelChunk> BrokenPanel::leave() { return chunks_of(panel_.leave()); }
 
 bool BrokenPanel::holds(const Vec3& at) const { return panel_.holds(plane_.flat(at)); }
 
-std::vector<PanelChunk> BrokenPanel::take(const fracture::Fracture& fracture) {
+std::vector<PanelChunk> BrokenPanel::chunks_of(const fracture::Fracture& fracture) {
   std::vector<PanelChunk> chunks;
   if (fracture.chunks.empty()) return chunks;
   for (const fracture::Chunk& chunk : fracture.chunks) {

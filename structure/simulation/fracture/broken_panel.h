@@ -69,7 +69,7 @@ class BrokenPanel {
   };
   static fracture::PanelShape shape_of(const Building& building, const Panel& panel, const Plane& plane,
                                        const std::array<bool, 4>& held);
-  [[nodiscard]] std::vector<PanelChunk> take(const fracture::Fracture& fracture);
+  [[nodiscard]] std::vector<PanelChunk> chunks_of(const fracture::Fracture& fracture);
   [[nodiscard]] PanelChunk lift(const fracture::Chunk& chunk) const;
   struct Description {
     Description() {}  // clang makes none as long as the class around it is not whole

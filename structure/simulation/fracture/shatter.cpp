@@ -45,7 +45,7 @@ std::vector<collision::BodyId> DebrisFracture::shatter(collision::BodyId id, con
   if (chunks.empty()) return {};
   log_.record(SimulationEvent::Kind::panel_fractured, scene_.building[panel].name).position = point;
   (void)debris_.resting.forget(id, *scene_.frame, false);
-  (void)hinges_.take_off(id);
+  (void)hinges_.unhook(id);
   debris_.remove(id);
   debris_.lose(Part(panel));
 

@@ -5,6 +5,7 @@
 // over the thickness. What is broken out has to be taken along: body and chunks leave with one speed, which keeps
 // momentum.
 #include "simulation/fracture/standing_fracture.h"
+#include "model/index_of.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,7 @@ double StandingFracture::punching_force(const Strike& hit) const {
 /// Speed that the punch leaves an impact that is fast enough to feel the panel alone; 0 for one that is not.
 double StandingFracture::speed_through(const Strike& hit, double force) const {
   if (force == unlimited) return 0;
-  const std::size_t panel = static_cast<std::size_t>(hit.part.panel.index);
+  const std::size_t panel = index_of(hit.part.panel);
   const double work = force * scene_.building.panels[panel].thickness / 2;
   const double left = hit.speed * hit.speed - 2 * work / hit.mass;
   return hit.speed > panels_.of(hit.part.panel).breaking_speed && left > 0 ? std::sqrt(left) : 0;

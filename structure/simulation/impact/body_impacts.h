@@ -48,10 +48,11 @@ class BodyImpacts {
   void account_turns_of(const std::vector<JointBreak>& broken, const YieldingPush& yielding);
   void keep_turns(const YieldingPush& yielding);
   void account_turns(std::vector<StandingFrame::ImpactTurn> turns, const YieldingPush& yielding);
-  [[nodiscard]] bool take_up(BodyImpact& impact);
+  [[nodiscard]] bool prepare_push(BodyImpact& impact);
   [[nodiscard]] Impact begin_push(const BodyImpact& impact, bool follows) const;
-  [[nodiscard]] Impact::Utilisation note_uses(const std::vector<StruckJoint>& joints, const YieldingJoints& hinges,
-                                              std::vector<double>& uses, double& moment) const;
+  [[nodiscard]] Impact::Utilisation record_utilisations(const std::vector<StruckJoint>& joints,
+                                                        const YieldingJoints& hinges, std::vector<double>& uses,
+                                                        double& moment) const;
   [[nodiscard]] static bool later(const BodyImpact& impact, const Eigen::VectorXd& impulses);
   [[nodiscard]] double deepest_push(const BodyImpact& impact) const;
   [[nodiscard]] std::vector<StruckJoint> struck_joints(const BodyImpact& impact, const YieldingJoints& yielding) const;

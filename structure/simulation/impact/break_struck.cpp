@@ -115,7 +115,7 @@ bool BodyImpacts::break_joints(BodyImpact& impact, Impact& push, YieldingPush& y
     impact.keep(kept);
     push.keep(kept);
     yielding.keep(kept);
-    goes_on = take_up(impact);
+    goes_on = prepare_push(impact);
   }
   if (goes_on) {
     const std::vector<int> apart = independent_places(impact.compliance);
@@ -133,7 +133,7 @@ bool BodyImpacts::break_joints(BodyImpact& impact, Impact& push, YieldingPush& y
       push.bind(impact.followed_mobility(), impact.followed_compliance(),
                 carried_over(before_break, moved, impact.sides[1]),
                 carried_over(before_break, moving, impact.sides[1]));
-    yielding.take_up(impact, push);
+    yielding.renew(impact, push);
     left = push.stored();
   }
   for (const std::size_t line : lines)

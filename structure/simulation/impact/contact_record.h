@@ -1,6 +1,6 @@
 #pragma once
-// What a contact did in the last collision step, of those that somebody feels: parts that can break or be loaded.
-// Pieces of panels among themselves and on the ground, most of a heap, are left out. Bodies may be gone since.
+// A contact of the last collision step that can break or load a part. Contacts of chunks of panels among themselves and
+// with the ground, most of a heap, are left out. Its bodies may be gone since.
 #include "topple/collision/world.h"
 #include "topple/structure/building.h"
 
@@ -15,13 +15,13 @@ struct ContactRecord {
   bool persistent = false;
 };
 
-[[nodiscard]] inline bool is_felt(const collision::Contact& contact) {
+[[nodiscard]] inline bool is_recorded(const collision::Contact& contact) {
   const bool stands = contact.other.kind == collision::Touched::Kind::obstacle;
   const bool two = contact.other.kind == collision::Touched::Kind::body;
   return stands || contact.part_tag >= 0 || (two && contact.other.part_tag >= 0);
 }
 
-[[nodiscard]] inline ContactRecord felt(const collision::Contact& contact) {
+[[nodiscard]] inline ContactRecord record_of(const collision::Contact& contact) {
   return {contact.body,   contact.part_tag, contact.other,     contact.point,
           contact.normal, contact.impulse,  contact.persistent};
 }

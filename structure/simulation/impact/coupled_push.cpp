@@ -1,4 +1,5 @@
 #include "simulation/impact/coupled_push.h"
+#include "simulation/impact/shared_push.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -10,14 +11,11 @@
 namespace topple::structure {
 
 namespace {
-/// Samples in a period of the fastest mode when a peak, a failure or a parting is looked for: between two of them a
-/// force has at most one extreme.
-constexpr int samples_per_period = 48;
-constexpr double pi = 3.14159265358979323846;
-/// Of the largest squared frequency: below it a mode is a free motion.
-constexpr double free_motion = 1e-12;
-/// A force below this share of the largest peak is none.
-constexpr double no_force = 1e-12;
+using shared_push::free_motion;
+using shared_push::no_force;
+using shared_push::passes_zero;
+using shared_push::pi;
+using shared_push::samples_per_period;
 }  // namespace
 
 CoupledPush::CoupledPush(const PushingBody& body, std::vector<PushedPlace> places, Eigen::MatrixXd compliance,
@@ -96,23 +94,6 @@ double CoupledPush::stored_at(const Vec6& coordinates) const {
   return 0.5 * depth.dot(stiffness_ * depth);
 }
 double CoupledPush::stored() const { return stored_at(coordinates_); }
-
-namespace {
-/// Where a rate that is positive at `from` and negative at `to` passes through zero: by chords, halved where they
-/// tarry.
-template <typename Rate>
-double passes_zero(double from, double to, double at_from, double at_to, const Rate& rate) {
-  for (int k = 0; k < 100 && to - from > 1e-14 * to; ++k) {
-    const double chord = from + (to - from) * at_from / (at_from - at_to);
-    const double at = k % 3 == 2 || !(chord > from && chord < to) ? from + (to - from) / 2 : chord;
-    const double value = rate(at);
-    if (value == 0) return at;
-    (value > 0 ? from : to) = at;
-    (value > 0 ? at_from : at_to) = value;
-  }
-  return from + (to - from) / 2;
-}
-}  // namespace
 
 /// Between two samples the energy has at most one extreme: where its rate, force times speed, passes through zero.
 void CoupledPush::note_most_stored(const Modes& modes, double from, double to) {

@@ -1,4 +1,5 @@
 #include "simulation/impact/first_failure.h"
+#include "model/index_of.h"
 #include "simulation/impact/impact_settings.h"
 
 #include <algorithm>
@@ -49,7 +50,7 @@ FirstFailure first_failure(const StandingFrame& frame, const StandingFrame::Unit
   for (const auto& [id, step] : response.demands) {
     const JointCapacity& capacity = building[id].capacity;
     if (!capacity.breakable || !frame.intact(id)) continue;
-    const double strength = strength_factors[static_cast<std::size_t>(id.index)];
+    const double strength = strength_factors[index_of(id)];
     const Vec6 demand = frame.demand(id);
     const double now = utilisation(capacity, demand, strength).value;
     const double slope = utilisation(capacity, step, strength).value;
@@ -62,7 +63,7 @@ FirstFailure first_failure(const StandingFrame& frame, const StandingFrame::Unit
   FirstFailure first;
   for (const Failing& one : failing) {
     if (one.force > least * (1 + impact_settings.same_instant)) continue;
-    const double strength = strength_factors[static_cast<std::size_t>(one.joint.index)];
+    const double strength = strength_factors[index_of(one.joint)];
     const Utilisation used = utilisation(building[one.joint].capacity, one.demand, strength);
     first.joints.push_back(impact_break(one.joint, used));
   }

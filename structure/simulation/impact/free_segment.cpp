@@ -10,31 +10,13 @@
 #include "mesh/shell_edges.h"
 #include "model/index_of.h"
 #include "model/point_inertia.h"
+#include "standing/member_beam.h"
 #include "topple/structure/frame.h"
 #include "topple/structure/joint_check.h"
 
 namespace topple::structure {
 
 namespace {
-
-solver::Beam beam_of(const Building& building, MemberId id) {
-  const Member& member = building[id];
-  const Section& section = building[member.section];
-  const Material& material = building[member.material];
-  solver::Beam beam;
-  beam.offset = member.offsets;
-  beam.axes = member.axes;
-  beam.length = member.length;
-  beam.youngs_modulus = material.youngs_modulus;
-  beam.shear_modulus = material.shear_modulus;
-  beam.area = section.area;
-  beam.shear_area_y = section.shear_area_y;
-  beam.shear_area_z = section.shear_area_z;
-  beam.Iy = section.Iy;
-  beam.Iz = section.Iz;
-  beam.J = section.J;
-  return beam;
-}
 
 Vec3 start_of(const Building& building, const Member& member) {
   return building[member.nodes[0]].position + member.offsets[0];
@@ -71,7 +53,7 @@ void FreeSegment::add_members(const std::function<bool(JointId)>& holds) {
   for (std::size_t i = 0; i < parts_.members.size(); ++i) {
     const MemberId id = parts_.members[i];
     const Member& member = building[id];
-    solver::Beam beam = beam_of(building, id);
+    solver::Beam beam = elastic_beam(building, id);
     for (int end = 0; end < 2; ++end) {
       const auto e = static_cast<std::size_t>(end);
       const JointId joint = building.joint(id, end);
@@ -107,7 +89,7 @@ void FreeSegment::add_point_masses() {
   for (std::size_t i = 0; i < parts_.panels.size(); ++i) {
     std::vector<int> corners;
     for (NodeId node : building_[parts_.panels[i]].nodes)
-      if (takes(parts_.panels[i], node)) corners.push_back(node_number_[index_of(node)]);
+      if (includes(parts_.panels[i], node)) corners.push_back(node_number_[index_of(node)]);
     for (int number : corners)
       point_mass_[static_cast<std::size_t>(number)] += parts_.panel_mass[i] / static_cast<double>(corners.size());
   }
@@ -187,7 +169,7 @@ std::vector<PanelPush> FreeSegment::pushes_on(const Hung& hung, std::span<const 
                                               const Vec3& spin, const Vec3& gravity) const {
   std::vector<PanelPush> all;
   for (const NodeId node : building_[hung.panel].nodes)
-    if (takes(hung.panel, node)) all.push_back({building_[node].position, Vec3::Zero()});
+    if (includes(hung.panel, node)) all.push_back({building_[node].position, Vec3::Zero()});
   for (PanelPush& corner : all)
     corner.force = hung.mass / static_cast<double>(all.size()) * on(corner.point, motion, spin, gravity);
   for (const FreePush& push : pushes)
@@ -256,7 +238,7 @@ void FreeSegment::add_mass(const Vec3& at, double mass) {
 }
 
 /// Those that are in the body; of a shell those that it holds on to, if it does to any.
-bool FreeSegment::takes(PanelId panel, NodeId corner) const {
+bool FreeSegment::includes(PanelId panel, NodeId corner) const {
   if (node_number_[index_of(corner)] < 0) return false;
   const auto shell = std::find_if(shells_.begin(), shells_.end(), [&](const auto& one) { return one.first == panel; });
   if (shell == shells_.end()) return true;
@@ -277,17 +259,17 @@ void FreeSegment::push_corners(PanelId id, const Vec3& point, const Vec3& force,
   const std::array<double, 4> share{(1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y};
   double held = 0;
   for (std::size_t corner = 0; corner < 4; ++corner)
-    if (takes(id, panel.nodes[corner])) held += share[corner];
+    if (includes(id, panel.nodes[corner])) held += share[corner];
   for (std::size_t corner = 0; corner < 4; ++corner) {
     const int number = node_number_[index_of(panel.nodes[corner])];
-    if (!takes(id, panel.nodes[corner]) || !(held > 0)) continue;
+    if (!includes(id, panel.nodes[corner]) || !(held > 0)) continue;
     Vec6 load = Vec6::Zero();
     load.head<3>() = share[corner] / held * force;
     loads.nodes.push_back({number, load});
   }
 }
 
-solver::LoadSet FreeSegment::place(std::span<const FreePush> pushes) const {
+solver::LoadSet FreeSegment::loads_of(std::span<const FreePush> pushes) const {
   solver::LoadSet loads;
   for (const FreePush& push : pushes) {
     if (!push.member.valid()) {
@@ -318,7 +300,7 @@ Vec3 FreeSegment::on(const Vec3& at, const Answer& motion, const Vec3& spin, con
 /// The pushes, and the inertia that holds them in balance with the spin and the weight.
 solver::LoadSet FreeSegment::balanced(std::span<const FreePush> pushes, const Vec3& spin, const Vec3& gravity,
                                       Answer& answer) const {
-  solver::LoadSet loads = place(pushes);
+  solver::LoadSet loads = loads_of(pushes);
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   for (const solver::NodeLoad& load : loads.nodes) {
     const Vec3 r = model_.nodes[static_cast<std::size_t>(load.node)] - centre_;

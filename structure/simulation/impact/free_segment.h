@@ -103,10 +103,10 @@ class FreeSegment {
                                                        const std::vector<Vec6>& displacements) const;
   [[nodiscard]] double polar(MemberId member) const;
   void add_mass(const Vec3& at, double mass);
-  [[nodiscard]] solver::LoadSet place(std::span<const FreePush> pushes) const;
+  [[nodiscard]] solver::LoadSet loads_of(std::span<const FreePush> pushes) const;
   void push_corners(PanelId panel, const Vec3& point, const Vec3& force, solver::LoadSet& loads) const;
   /// Whether a panel's mass, and what acts on it, is taken by this one of its corners.
-  [[nodiscard]] bool takes(PanelId panel, NodeId corner) const;
+  [[nodiscard]] bool includes(PanelId panel, NodeId corner) const;
   [[nodiscard]] Vec3 on(const Vec3& at, const Answer& motion, const Vec3& spin, const Vec3& gravity) const;
 
   const Building& building_;

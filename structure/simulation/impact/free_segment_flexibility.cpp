@@ -116,7 +116,7 @@ FreeSegment::Flexibility FreeSegment::flexibility(std::span<const FreePush> unit
   if (analysis_) {
     solutions = analysis_->solve(loads);
     std::vector<solver::LoadSet> alone;
-    for (std::size_t i = 0; i < unit_pushes.size(); ++i) alone.push_back(place(unit_pushes.subspan(i, 1)));
+    for (std::size_t i = 0; i < unit_pushes.size(); ++i) alone.push_back(loads_of(unit_pushes.subspan(i, 1)));
     for (Eigen::Index j = 0; j < n; ++j) {
       const auto b = static_cast<std::size_t>(j);
       const std::vector<solver::BeamDiagram> diagrams = diagrams_of(solutions[b], loads[b]);

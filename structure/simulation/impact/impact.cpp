@@ -1,4 +1,5 @@
 #include "simulation/impact/impact.h"
+#include "simulation/impact/shared_push.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -12,14 +13,11 @@ namespace topple::structure {
 
 namespace {
 
-/// Samples in a period of the fastest mode when a peak, a failure or a parting is looked for: between two of them a
-/// force has at most one extreme.
-constexpr int samples_per_period = 48;
-constexpr double pi = 3.14159265358979323846;
-/// Of the largest squared frequency: below it a mode is a free motion.
-constexpr double free_motion = 1e-12;
-/// A force below this share of the largest peak is none.
-constexpr double no_force = 1e-12;
+using shared_push::free_motion;
+using shared_push::no_force;
+using shared_push::passes_zero;
+using shared_push::pi;
+using shared_push::samples_per_period;
 /// What is bound may swing more slowly than what pushes it: a push that has not ended after so many periods of its own,
 /// with nothing moving behind the place, is left to the motion of what stands.
 constexpr double most_periods = 4;
@@ -33,21 +31,6 @@ double first_time(double from, double to, const Passed& passed) {
     (passed(middle) ? to : from) = middle;
   }
   return to;
-}
-
-/// Where a rate that is positive at `from` and negative at `to` passes through zero: by chords, halved where they
-/// tarry.
-template <typename Rate>
-double passes_zero(double from, double to, double at_from, double at_to, const Rate& rate) {
-  for (int k = 0; k < 100 && to - from > 1e-14 * to; ++k) {
-    const double chord = from + (to - from) * at_from / (at_from - at_to);
-    const double at = k % 3 == 2 || !(chord > from && chord < to) ? from + (to - from) / 2 : chord;
-    const double value = rate(at);
-    if (value == 0) return at;
-    (value > 0 ? from : to) = at;
-    (value > 0 ? at_from : at_to) = value;
-  }
-  return from + (to - from) / 2;
 }
 
 /// Least t > 0 with gap + speed t + acceleration t^2/2 = 0 on the way up, gap below zero; `never` when there is none.
@@ -137,7 +120,7 @@ void Impact::check() const {
 }
 
 bool Impact::any(Touch state) const {
-  const auto end = state_.begin() + places();
+  const auto end = state_.begin() + place_count();
   return std::find(state_.begin(), end, state) != end;
 }
 bool Impact::goes_on() const { return any(Touch::touching) || any(Touch::behind); }
@@ -152,7 +135,7 @@ void Impact::yield(Eigen::MatrixXd compliance, const Eigen::VectorXd& shift) {
   compliance_ = std::move(compliance);
   unloaded_ += shift;
   check();
-  for (Eigen::Index i = 0; i < places(); ++i) {
+  for (Eigen::Index i = 0; i < place_count(); ++i) {
     Touch& state = state_[static_cast<std::size_t>(i)];
     if (state == Touch::touching && depth_(i) < unloaded_(i)) state = Touch::behind;
   }
@@ -214,7 +197,7 @@ double Impact::longest_swing(const Modes& m) const {
   const double whole = 2 * pi / m.slowest();
   if (bound_ == 0) return whole;
   double own = 0;
-  for (Eigen::Index i = 0; i < places(); ++i)
+  for (Eigen::Index i = 0; i < place_count(); ++i)
     if (state_[static_cast<std::size_t>(i)] != Touch::gone)
       own = std::max(own, 2 * pi * std::sqrt(elastic_(i) / mobility_(i, i)));
   return std::min(whole, most_periods * own);
@@ -268,7 +251,7 @@ void Impact::note_peaks(const Modes& m, double from, double to) {
     const auto i = static_cast<Eigen::Index>(k);
     double& peak = peak_(m.touching[k]);
     // What is bound peaks either way.
-    for (int sign = 1; sign >= (m.touching[k] < places() ? 1 : -1); sign -= 2) {
+    for (int sign = 1; sign >= (m.touching[k] < place_count() ? 1 : -1); sign -= 2) {
       peak = std::max(peak, sign * end(i));
       if (!(sign * at_from(i) > 0 && sign * at_to(i) < 0)) continue;
       const double at =
@@ -318,7 +301,7 @@ double Impact::largest_overlap(const Modes& m, double t, Eigen::Index* which) co
 /// Places whose force has come to nothing at this time, `touching` of them first among what touches.
 void Impact::part(const Modes& m, double at, Eigen::Index touching) {
   const Eigen::VectorXd last = m.force(at);
-  const double none = no_force * std::max(peak_.head(places()).maxCoeff(), std::numeric_limits<double>::min());
+  const double none = no_force * std::max(peak_.head(place_count()).maxCoeff(), std::numeric_limits<double>::min());
   for (std::size_t k = 0; static_cast<Eigen::Index>(k) < touching; ++k)
     if (last(static_cast<Eigen::Index>(k)) <= none) state_[static_cast<std::size_t>(m.touching[k])] = Touch::gone;
 }
@@ -332,7 +315,7 @@ Impact::Stop Impact::swing(const Watch& watch, bool by_rates, double deepest, bo
   const auto used = [&](double t) {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(depth_.size());
     all(m.touching) = m.force(t);
-    all.head(places()) = all.head(places()).cwiseMax(0.0);
+    all.head(place_count()) = all.head(place_count()).cwiseMax(0.0);
     if (!by_rates) return watch(all, all);
     Eigen::VectorXd rate = Eigen::VectorXd::Zero(depth_.size());
     rate(m.touching) = m.force(t, -1);

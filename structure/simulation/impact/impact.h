@@ -49,7 +49,7 @@ class Impact {
   using Watch = std::function<double(const Eigen::VectorXd& force, const Eigen::VectorXd& rate)>;
   Stop push_watched(const Watch& watch, double deepest = std::numeric_limits<double>::infinity());
 
-  /// Something behind the places begins to turn plastically, or holds again: compliance from now on, of all, and by how
+  /// Something behind the places begins to turn plastically, or unloads: compliance from now on, of all, and by how
   /// much each unloaded place, and what is bound, has moved. How long the push lasts at most is told by how it gives
   /// way elastically.
   void yield(Eigen::MatrixXd compliance, const Eigen::VectorXd& shift);
@@ -74,7 +74,7 @@ class Impact {
   [[nodiscard]] const Eigen::VectorXd& peak_force() const { return peak_; }  ///< so far, N; of what is bound either way
   [[nodiscard]] const Eigen::VectorXd& impulse() const { return impulse_; }  ///< of each place since taken last, N s
   /// Hands them out: from now on they are counted anew.
-  [[nodiscard]] Eigen::VectorXd take_impulse() {
+  [[nodiscard]] Eigen::VectorXd extract_impulse() {
     return std::exchange(impulse_, Eigen::VectorXd::Zero(impulse_.size()));
   }
   [[nodiscard]] const Eigen::VectorXd& closing_speed() const { return speed_; }  ///< now, m/s
@@ -99,7 +99,7 @@ class Impact {
   void part(const Modes& modes, double at, Eigen::Index touching);
   void note_peaks(const Modes& modes, double from, double to);
   [[nodiscard]] bool any(Touch state) const;  ///< of places
-  [[nodiscard]] Eigen::Index places() const { return depth_.size() - bound_; }
+  [[nodiscard]] Eigen::Index place_count() const { return depth_.size() - bound_; }
   [[nodiscard]] double longest_swing(const Modes& modes) const;
 
   Eigen::MatrixXd mobility_, compliance_;

@@ -114,7 +114,7 @@ void BodyImpacts::find_held(ImpactSide& side, const std::vector<ImpactPlace>& pl
 }
 
 /// Both sides' flexibility, and the places that are left of it. False: nothing gives way, or nothing closes.
-bool BodyImpacts::take_up(BodyImpact& impact) {
+bool BodyImpacts::prepare_push(BodyImpact& impact) {
   find_flexibility(impact.sides[0], impact.places, -1);
   find_flexibility(impact.sides[1], impact.places, 1);
   impact.compliance = impact.sides[0].flexibility.compliance + impact.sides[1].flexibility.compliance;

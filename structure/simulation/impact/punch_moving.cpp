@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/index_of.h"
 #include "simulation/impact/standing_impacts.h"
 
 namespace topple::structure {
@@ -14,8 +15,7 @@ bool StandingImpacts::joint_fails_below(const StandingFrame::HeldResponse& respo
     const JointCapacity& capacity = scene_.building[joint].capacity;
     if (!capacity.breakable || !scene_.frame->intact(joint)) continue;
     const Vec6 demand = scene_.frame->demand(joint) + force * columns.col(0);
-    if (utilisation(capacity, demand, scene_.strength_factors[static_cast<std::size_t>(joint.index)]).value >= 1)
-      return true;
+    if (utilisation(capacity, demand, scene_.strength_factors[index_of(joint)]).value >= 1) return true;
   }
   return false;
 }
@@ -53,7 +53,7 @@ bool StandingImpacts::punch_moving(const collision::Contact& contact) {
   hit->speed_out = plug > 0 ? (alone * hit->mass + hit->chunk_speed * plug) / (hit->mass + plug) : alone;
   record_loss(*hit);
   hit->lost -= given;
-  send_on(*hit);
+  set_motion_after(*hit);
   fracture_.push_chunks(*hit);
   record_impact(*hit);
   return true;

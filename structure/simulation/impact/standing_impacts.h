@@ -39,10 +39,10 @@ class StandingImpacts {
   void strike(const collision::Contact& contact);
   [[nodiscard]] std::optional<Strike> aim(const collision::Contact& contact);
   [[nodiscard]] double rebound(const Indentation& pushing) const;
-  [[nodiscard]] bool bears(Strike& hit, double weight, double punching);
-  void push_in(Strike& hit);
+  [[nodiscard]] bool breaks_nothing(Strike& hit, double weight, double punching);
+  void run_impact(Strike& hit);
   static void record_loss(Strike& hit);
-  void send_on(const Strike& hit);
+  void set_motion_after(const Strike& hit);
   void record_impact(const Strike& hit);
   void keep_release_impulse(const Strike& hit);
   void move_on(const Strike& hit, collision::BodyState after, std::span<const PointImpulse> impulses);
@@ -50,11 +50,11 @@ class StandingImpacts {
   [[nodiscard]] bool joint_fails_below(const StandingFrame::HeldResponse& response, double force) const;
   // strike_together.cpp: several of them at one instant.
   [[nodiscard]] bool strike_together(std::span<const collision::Contact* const> contacts);
-  [[nodiscard]] bool take_up(SimultaneousImpact& pushed) const;
-  [[nodiscard]] bool bears(SimultaneousImpact& pushed);
-  void push_in(SimultaneousImpact& pushed);
+  [[nodiscard]] bool prepare_push(SimultaneousImpact& pushed) const;
+  [[nodiscard]] bool breaks_nothing(SimultaneousImpact& pushed);
+  void run_impact(SimultaneousImpact& pushed);
   void go_on(SimultaneousImpact& pushed, const Eigen::VectorXd& shift);
-  void send_on(SimultaneousImpact& pushed);
+  void set_motion_after(SimultaneousImpact& pushed);
 
   Scene& scene_;
   EventLog& log_;

@@ -63,8 +63,8 @@ void StandingImpacts::strike_all(const std::vector<collision::Contact>& contacts
 void StandingImpacts::strike(const collision::Contact& contact) {
   std::optional<Strike> hit = aim(contact);
   if (!hit) return;
-  push_in(*hit);
-  send_on(*hit);
+  run_impact(*hit);
+  set_motion_after(*hit);
   fracture_.push_chunks(*hit);
   record_impact(*hit);
 }
@@ -130,7 +130,7 @@ double StandingImpacts::rebound(const Indentation& pushing) const {
 /// Whether what is hit provably bears the push: the joints that bear it directly do not fail, and the energy is less
 /// than any other joint fails at. A lower bound of the mass that takes part makes the push harder than it is, so what
 /// is told of it (peak force, speed out) is a bound as well. Most impacts of debris end here, at a part of the cost.
-bool StandingImpacts::bears(Strike& hit, double weight, double punching) {
+bool StandingImpacts::breaks_nothing(Strike& hit, double weight, double punching) {
   constexpr double rounding = 1e-6;
   const StandingFrame::UnitResponse near = scene_.frame->respond_near(hit.place, hit.normal);
   const double mass = scene_.scenario.impact.structure_mass ? near.rayleigh_mass : 0;
@@ -146,13 +146,13 @@ bool StandingImpacts::bears(Strike& hit, double weight, double punching) {
 }
 
 /// The pushing, break after break, until the body stops or nothing is left to push.
-void StandingImpacts::push_in(Strike& hit) {
+void StandingImpacts::run_impact(Strike& hit) {
   const double weight = hit.mass * scene_.gravity.dot(hit.normal);
   double punching = fracture_.punching_force(hit);
   // A fast impact goes through whatever the joints bear.
   if (const double left = fracture_.speed_through(hit, punching); left > 0) {
     if (fracture_.punch_at_once(hit, punching, left)) return record_loss(hit);
-  } else if (bears(hit, weight, punching)) {
+  } else if (breaks_nothing(hit, weight, punching)) {
     return record_loss(hit);
   }
   StandingFrame::UnitResponse response = scene_.frame->respond(hit.place, hit.normal);
@@ -204,7 +204,7 @@ void StandingImpacts::record_loss(Strike& hit) {
 }
 
 /// Gives the body its outgoing velocity, before the collision world moves it.
-void StandingImpacts::send_on(const Strike& hit) {
+void StandingImpacts::set_motion_after(const Strike& hit) {
   const Body& one = *hit.body;
   const Vec3 impulse = hit.mass * (hit.speed_out - hit.speed) * hit.normal;  // on the body
   const Vec3 r = hit.place.point - hit.state.pose.position;

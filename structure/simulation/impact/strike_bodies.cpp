@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "model/index_of.h"
 #include "simulation/debris/momentum.h"
 #include "simulation/impact/body_impacts.h"
 #include "simulation/impact/impact_settings.h"
@@ -87,9 +88,8 @@ std::vector<StruckJoint> BodyImpacts::struck_joints(const BodyImpact& impact, co
       Eigen::Matrix<double, 6, Eigen::Dynamic> by_force = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, n + m);
       by_force.leftCols(n) = columns;
       if (side.held) by_force.rightCols(m) = side.mode_demands[k];
-      joints.push_back({joint, &scene_.building[joint].capacity,
-                        scene_.strength_factors[static_cast<std::size_t>(joint.index)], side.borne[k].second,
-                        std::move(by_force)});
+      joints.push_back({joint, &scene_.building[joint].capacity, scene_.strength_factors[index_of(joint)],
+                        side.borne[k].second, std::move(by_force)});
       if (!side.held || !yielding.any()) continue;
       // What turns holds its capacity, and changes what others bear.
       StruckJoint& struck = joints.back();
@@ -133,7 +133,7 @@ void BodyImpacts::strike(const std::vector<collision::Contact>& contacts) {
 
 void BodyImpacts::push(BodyImpact& impact) {
   const Eigen::VectorXd own = closing_speeds(impact.sides[0].motion, impact.sides[1].motion, impact.places);
-  if (!(own.maxCoeff() >= impact_settings.least_speed) || !take_up(impact)) return;
+  if (!(own.maxCoeff() >= impact_settings.least_speed) || !prepare_push(impact)) return;
   if (!(impact.closing().maxCoeff() >= impact_settings.least_speed)) return;  // what stands makes way
   impact.keep(independent_places(impact.compliance));
   if (begin_push(impact, false).fastest_over_slowest() > impact_settings.most_unlike) impact.keep({0});
@@ -149,8 +149,9 @@ void BodyImpacts::push(BodyImpact& impact) {
     Impact borne = *push;
     std::vector<double> uses(all.size(), 0);
     double moment = 0;
-    (void)borne.push(impact.sides[1].held ? note_uses(all, yielding.joints, uses, moment) : Impact::Utilisation(),
-                     deepest);
+    (void)borne.push(
+        impact.sides[1].held ? record_utilisations(all, yielding.joints, uses, moment) : Impact::Utilisation(),
+        deepest);
     const Eigen::Index n = impact.compliance.rows();
     const StruckJoints joints(all, borne.peak_force(), static_cast<int>(impact.sides[1].mode_compliance.size()));
     const double hardest = borne.peak_force().head(n).maxCoeff();
@@ -176,7 +177,7 @@ void BodyImpacts::push(BodyImpact& impact) {
     if (!told) told = record(impact, speed_in);
     SimulationEvent& event = log_[*told];
     event.peak_force = std::max(event.peak_force, push->peak_force().head(n).maxCoeff());
-    give_impulses(impact, push->take_impulse().head(n));
+    give_impulses(impact, push->extract_impulse().head(n));
     account_turns_of(broken, yielding);
     goes_on = break_joints(impact, *push, yielding, broken);
     log_[*told].speed_out = push->closing_speed()(0);
@@ -199,8 +200,9 @@ bool BodyImpacts::later(const BodyImpact& impact, const Eigen::VectorXd& impulse
 }
 
 /// Fails nothing, and keeps the largest utilisation of each joint of what stands, and the largest moment of its hinges.
-Impact::Utilisation BodyImpacts::note_uses(const std::vector<StruckJoint>& joints, const YieldingJoints& hinges,
-                                           std::vector<double>& uses, double& moment) const {
+Impact::Utilisation BodyImpacts::record_utilisations(const std::vector<StruckJoint>& joints,
+                                                     const YieldingJoints& hinges, std::vector<double>& uses,
+                                                     double& moment) const {
   return [&](const Eigen::VectorXd& force) {
     if (hinges.any()) moment = std::max(moment, hinges.largest_moment(force));
     for (std::size_t k = 0; k < joints.size(); ++k) {

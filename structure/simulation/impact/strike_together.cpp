@@ -44,7 +44,7 @@ class WatchedJoints {
                 std::span<const double> strength_factors, const Eigen::VectorXd& most);
   [[nodiscard]] bool empty() const { return joints_.empty(); }
   /// Exact from 1 on; below it at least what it is.
-  [[nodiscard]] double worst_use(const Eigen::VectorXd& force) const;
+  [[nodiscard]] double worst_utilisation(const Eigen::VectorXd& force) const;
   [[nodiscard]] std::vector<JointBreak> failing(const Eigen::VectorXd& force) const;
 
  private:
@@ -89,7 +89,7 @@ WatchedJoints::WatchedJoints(const StandingFrame& frame, const std::vector<Stand
   for (std::size_t i = 0; i < slopes.size(); ++i) slopes_.row(static_cast<Eigen::Index>(i)) = slopes[i].transpose();
 }
 
-double WatchedJoints::worst_use(const Eigen::VectorXd& force) const {
+double WatchedJoints::worst_utilisation(const Eigen::VectorXd& force) const {
   const Eigen::VectorXd most = now_ + slopes_ * force;
   double below = 0, worst = 0;
   for (Eigen::Index i = 0; i < most.size(); ++i) {
@@ -157,22 +157,22 @@ bool StandingImpacts::strike_together(std::span<const collision::Contact* const>
   }
   // What is known at little cost tells of most pushes that they are borne, and of some that they are taken one by one.
   pushed.response = scene_.frame->respond_near(pushed.places, pushed.normals);
-  if (!take_up(pushed)) return false;
-  if (bears(pushed)) {
+  if (!prepare_push(pushed)) return false;
+  if (breaks_nothing(pushed)) {
     ++sums_.counters.impacts_bounded;
   } else {
     pushed.response = scene_.frame->respond(pushed.places, pushed.normals);
-    if (!take_up(pushed)) return false;
-    push_in(pushed);
+    if (!prepare_push(pushed)) return false;
+    run_impact(pushed);
   }
   ++sums_.counters.impacts_together;
-  send_on(pushed);
+  set_motion_after(pushed);
   for (const Strike& hit : hits) record_impact(hit);
   return true;
 }
 
 /// The push against what is known of the structure. False when the places are better taken one after the other.
-bool StandingImpacts::take_up(SimultaneousImpact& pushed) const {
+bool StandingImpacts::prepare_push(SimultaneousImpact& pushed) const {
   std::vector<Strike>& hits = pushed.hits;
   if (!independent(pushed.response.compliance)) return false;
   const Body& one = *hits.front().body;
@@ -194,7 +194,7 @@ bool StandingImpacts::take_up(SimultaneousImpact& pushed) const {
 
 /// As for one place (strike.cpp): the joints that bear the push directly do not fail under its peaks, and the strain
 /// energy, at most that of all peaks at once, is less than any other joint fails at. Then the push is done.
-bool StandingImpacts::bears(SimultaneousImpact& pushed) {
+bool StandingImpacts::breaks_nothing(SimultaneousImpact& pushed) {
   constexpr double rounding = 1e-6;
   CoupledPush borne = *pushed.push;
   const CoupledPush::Stop end = borne.push();
@@ -207,28 +207,28 @@ bool StandingImpacts::bears(SimultaneousImpact& pushed) {
   return true;
 }
 
-void StandingImpacts::push_in(SimultaneousImpact& pushed) {
+void StandingImpacts::run_impact(SimultaneousImpact& pushed) {
   CoupledPush& push = *pushed.push;
   for (;;) {
     CoupledPush borne = push;
     const CoupledPush::Stop end = borne.push();
     const WatchedJoints watched(*scene_.frame, pushed.response.places, scene_.strength_factors, borne.peak_force());
-    const auto used = [&](const Eigen::VectorXd& force) { return watched.worst_use(force); };
+    const auto used = [&](const Eigen::VectorXd& force) { return watched.worst_utilisation(force); };
     if (watched.empty()) return pushed.leave(std::move(borne), end, scene_.scenario.impact.restitution);
     if (push.push(used) != CoupledPush::Stop::failed)
       return pushed.leave(CoupledPush(push), end, scene_.scenario.impact.restitution);
     const std::vector<JointBreak> breaks = watched.failing(push.force());
     const double stored = push.stored();
     const Eigen::VectorXd shift = scene_.frame->break_in_impact(breaks, pushed.places, pushed.normals);
-    bool stays = false, slips = false;
+    bool stays = false, shifted = false;
     for (std::size_t i = 0; i < pushed.hits.size(); ++i) {
       Strike& hit = pushed.hits[i];
       hit.through = !scene_.stands(hit.part);
       if (hit.through) push.let_go(i);
       stays = stays || push.touches(i);
-      slips = slips || std::abs(shift(static_cast<Eigen::Index>(i))) > impact_settings.largest_shift;
+      shifted = shifted || std::abs(shift(static_cast<Eigen::Index>(i))) > impact_settings.largest_shift;
     }
-    const bool ends = !stays || slips;
+    const bool ends = !stays || shifted;
     if (!ends) go_on(pushed, shift);
     const double freed = ends ? stored : std::max(0.0, stored - push.stored());
     for (JointBreak broken : breaks) {
@@ -262,7 +262,7 @@ void StandingImpacts::go_on(SimultaneousImpact& pushed, const Eigen::VectorXd& s
   pushed.push->weaken(pushed.response.compliance, shift);
 }
 
-void StandingImpacts::send_on(SimultaneousImpact& pushed) {
+void StandingImpacts::set_motion_after(SimultaneousImpact& pushed) {
   Strike& first = pushed.hits.front();
   const Body& one = *first.body;
   std::vector<char> through;

@@ -1,5 +1,5 @@
 #pragma once
-// Where in a step a body that has struck something stands in time.
+// When a body had its last impact in this step, and up to which time its state holds since then.
 #include <cstdint>
 #include <map>
 

@@ -16,13 +16,13 @@ constexpr double beyond = 1e-9;
 /// Of a hinge's elastic stiffness with its nodes held: what it holds grows by so much as it turns, so that a part which
 /// hinges alone hold still gives way by a finite amount. Over ten rotations at yield that is 1e-5 of its capacity.
 constexpr double hardening = 1e-6;
-/// Events (one begins to turn, or holds again), for each hinge; a push that has more is going round in circles and
+/// Events (one begins to turn, or unloads), for each hinge; a push that has more is going round in circles and
 /// ends: the motion of what stands sees to the rest.
 constexpr int most_events = 8;
 
 }  // namespace
 
-void YieldingJoints::take_up(const BodyImpact& impact) {
+void YieldingJoints::find_hinges(const BodyImpact& impact) {
   const ImpactSide& side = impact.sides[1];
   const std::vector<Hinge> before = std::exchange(hinges_, {});
   if (!side.held || side.response.hinges.empty()) return;

@@ -23,7 +23,7 @@ class YieldingJoints {
  public:
   /// The hinges of the struck side as it is now, with what those of the same joints have turned by in this impact; none
   /// turns. Nothing unless what is struck stands and moves.
-  void take_up(const BodyImpact& impact);
+  void find_hinges(const BodyImpact& impact);
   [[nodiscard]] bool any() const { return !hinges_.empty(); }
   /// Of this joint.
   [[nodiscard]] bool has(JointId joint) const;

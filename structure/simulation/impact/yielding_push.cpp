@@ -5,7 +5,7 @@
 namespace topple::structure {
 
 YieldingPush::YieldingPush(const BodyImpact& impact, double lost) : lost_before(lost) {
-  joints.take_up(impact);
+  joints.find_hinges(impact);
   if (joints.any()) laid = joints.unloaded();
 }
 
@@ -24,8 +24,8 @@ void YieldingPush::keep(const std::vector<int>& places) {
 }
 
 /// After a break, with places that lie as far on as `laid` says, and modes that do not.
-void YieldingPush::take_up(const BodyImpact& impact, Impact& push) {
-  joints.take_up(impact);
+void YieldingPush::renew(const BodyImpact& impact, Impact& push) {
+  joints.find_hinges(impact);
   if (!joints.any()) return;
   const Eigen::VectorXd places = laid;
   laid = Eigen::VectorXd::Zero(joints.unloaded().size());

@@ -26,7 +26,7 @@ struct YieldingPush {
   /// Of the places of contact, these alone are left.
   void keep(const std::vector<int>& places);
   /// After a break, with places that lie as far on as `laid` says, and modes that do not.
-  void take_up(const BodyImpact& impact, Impact& push);
+  void renew(const BodyImpact& impact, Impact& push);
 };
 
 }  // namespace topple::structure

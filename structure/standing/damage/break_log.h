@@ -21,7 +21,7 @@ class BreakLog {
   [[nodiscard]] std::vector<JointBreak>& lines() { return lines_; }
   [[nodiscard]] std::size_t size() const { return lines_.size(); }
   /// Handed out once.
-  [[nodiscard]] std::vector<JointBreak> take() { return std::exchange(lines_, {}); }
+  [[nodiscard]] std::vector<JointBreak> extract() { return std::exchange(lines_, {}); }
 
   /// Stays where it is.
   [[nodiscard]] const int& generation() const { return generation_; }

@@ -9,7 +9,7 @@ void Departures::follow(const PanelBearings::Changes& changes, std::vector<Detac
   }
   for (PanelId panel : changes.lost_edge) {
     lose_edges(panel);
-    state_.contacts.place_again(panel);
+    state_.contacts.update_loads_on(panel);
   }
   for (PanelId panel : changes.fell) {
     lose_edges(panel);

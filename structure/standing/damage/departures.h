@@ -23,7 +23,7 @@ class Departures {
   void add(Detached part) { detached_.push_back(std::move(part)); }
   [[nodiscard]] bool any() const { return !detached_.empty(); }
   /// Handed out once, in the order in which they left.
-  [[nodiscard]] std::vector<Detached> take() { return std::exchange(detached_, {}); }
+  [[nodiscard]] std::vector<Detached> extract() { return std::exchange(detached_, {}); }
 
  private:
   void lose_edges(PanelId panel);

@@ -117,7 +117,7 @@ void Generations::find_overloads(int c, std::vector<JointId>& breaking) {
   std::vector<double> largest(static_cast<std::size_t>(parts.segments.labels()), 0.0);
   std::vector<std::pair<JointId, double>> over;
   for (JointId joint : to_.state.components.joints[static_cast<std::size_t>(c)]) {
-    const double used = joints.felt(joint).value;
+    const double used = joints.amplified(joint).value;
     if (!(used > 1 || used > joints.largest(joint))) continue;
     const int segment = parts.label(joint);
     if (segment < 0 || !parts.holds(joint)) continue;

@@ -1,6 +1,6 @@
 #pragma once
-// The static way of a standing frame from one state of rest to the next: solve, break what is over capacity, release
-// what that sets free, and again. One round is a generation: the joints that break in one state, before the next is
+// Progressive collapse by statics, from one state of rest to the next: solve, break what is over capacity, release what
+// that sets free, and again. One round is a generation: the joints that break in one state, before the next is
 // solved.
 #include <optional>
 #include <utility>

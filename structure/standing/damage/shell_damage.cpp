@@ -12,7 +12,7 @@ void ShellDamage::fracture(PanelId panel, const PanelRemains& remains) {
   state_.loads.fracture(panel, remains);
   if (state_.motion) state_.motion->update_mass(panel);
   state_.account.change(panel).lighten(panel, before, state_.loads.handed(panel));
-  state_.contacts.place_again(panel);
+  state_.contacts.update_loads_on(panel);
   let_go_of_bare_nodes(panel);
   state_.check_again(state_.components.of(panel));
 }
@@ -45,7 +45,7 @@ void ShellDamage::lose_edge(PanelId panel, int edge) {
     state_.update_stiffness(panel, before);
     if (state_.motion) state_.motion->update_mass(panel);
     state_.hand_on_anew(panel);
-    state_.contacts.place_again(panel);
+    state_.contacts.update_loads_on(panel);
     let_go_of_bare_nodes(panel);
   }
   state_.check_again(state_.components.of(panel));

@@ -37,7 +37,7 @@ void StandingDamage::let_go(JointId joint, int line) {
     return;
   }
   state.joints.lose(joint);
-  if (state.parts.bearings.serves(own.panel))
+  if (state.parts.bearings.tracks(own.panel))
     to_.departures.follow(state.parts.bearings.break_edge(own.panel, own.end));
   else
     to_.shells.lose_edge(own.panel, own.end);
@@ -68,7 +68,7 @@ std::vector<JointId> StandingDamage::extract_unbraced() { return in_order(std::e
 /// A membrane keeps what stiffness its remains have while all of its edges hold.
 void StandingDamage::fracture(PanelId panel, const PanelRemains& remains) {
   StructuralState& state = to_.state;
-  if (!state.parts.bearings.serves(panel)) {
+  if (!state.parts.bearings.tracks(panel)) {
     to_.shells.fracture(panel, remains);
   } else {
     const bool membrane = state.parts.bearings.membrane(panel);
@@ -124,7 +124,7 @@ void StandingDamage::remove(PanelId panel) {
   StructuralState& state = to_.state;
   if (!state.stands(panel)) return;
   state.contacts.drop(panel);
-  if (!state.parts.bearings.serves(panel)) {
+  if (!state.parts.bearings.tracks(panel)) {
     state.parts.segments.remove(panel);
     to_.shells.leave(panel);
     return;

@@ -1,5 +1,6 @@
 #pragma once
-// Damage to a standing frame: each change told to account, segmentation, bearings, statics, loads and joints alike.
+// Damage to a standing frame: each change goes to the energy account, segmentation,
+// bearings, statics, loads and joints alike.
 #include <optional>
 #include <span>
 #include <utility>

@@ -129,7 +129,7 @@ void StandingRelease::release_moving_shells(const std::vector<NodeId>& moving) {
   for (const NodeId node : moving) moves[index_of(node)] = 1;
   for (std::size_t p = 0; p < building.panels.size(); ++p) {
     const PanelId panel(p);
-    if (state.parts.bearings.serves(panel) || state.parts.segments.label(panel) < 0) continue;
+    if (state.parts.bearings.tracks(panel) || state.parts.segments.label(panel) < 0) continue;
     const std::vector<NodeId> nodes = building.panels[p].all_nodes();
     bool any = false, all = true;
     for (std::size_t n = 0; n < nodes.size(); ++n) {

@@ -261,7 +261,7 @@ ChangeFromRest::Sums ChangeFromRest::finish(int component, bool slow, std::vecto
   return sums_;
 }
 
-void ChangeFromRest::hand_over(StateOfRest& rest) const {
+void ChangeFromRest::commit_to(StateOfRest& rest) const {
   for (const Opening& opening : openings_) rest.lose_joint(opening.joint);
   for (const auto& [member, loads] : member_loads_) rest.record_loads(member);
   for (const auto& [node, load] : node_loads_) rest.record_loads(node);

@@ -61,7 +61,7 @@ class ChangeFromRest {
   /// laid on slowly. Adds each told joint's energy to its line; what is not a joint's own is shared equally among them.
   [[nodiscard]] Sums finish(int component, bool slow, std::vector<JointBreak>& breaks);
   /// What it told of becomes part of the state of rest: joints that broke, loads that were written.
-  void hand_over(StateOfRest& rest) const;
+  void commit_to(StateOfRest& rest) const;
 
  private:
   struct Opening {

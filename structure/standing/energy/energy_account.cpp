@@ -64,7 +64,7 @@ void EnergyAccount::finish(int component, bool slow, std::vector<JointBreak>& br
   past_.contact_left += sums.contact_left;
   past_.freed += sums.freed;
   past_.dissipated += sums.dissipated;
-  change->hand_over(rest_);
+  change->commit_to(rest_);
   change.reset();
   rest_.record(component);
   rests_[static_cast<std::size_t>(component)].reset();

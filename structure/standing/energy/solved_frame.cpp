@@ -10,7 +10,7 @@ namespace topple::structure {
 bool SolvedFrame::solved(NodeId node) const { return node_solved[index_of(node)] != 0; }
 
 bool SolvedFrame::stands(PanelId panel) const {
-  return bearings.serves(panel) ? bearings.stands(panel) : segments.label(panel) >= 0;
+  return bearings.tracks(panel) ? bearings.stands(panel) : segments.label(panel) >= 0;
 }
 
 bool SolvedFrame::stands(const PlacedLoad& placed) const {

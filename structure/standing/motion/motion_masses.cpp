@@ -57,7 +57,7 @@ void MotionMasses::hang(const Shares& shares, double sign) {
 /// As its weight is shared out, so is its mass. A shell has its own in the frame.
 MotionMasses::Shares MotionMasses::read(PanelId panel) const {
   Shares shares;
-  if (!bearings_.serves(panel)) return shares;
+  if (!bearings_.tracks(panel)) return shares;
   const TributaryLoads& handed = loads_.handed(panel);
   Vec3 total = Vec3::Zero();
   for (const solver::BeamLoad& load : handed.beams)

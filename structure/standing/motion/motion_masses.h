@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "loads/frame_loads.h"
+#include "model/index_of.h"
 
 namespace topple::structure {
 
@@ -35,7 +36,7 @@ class MotionMasses {
  private:
   template <class Tag>
   static std::size_t index(Id<Tag> id) {
-    return static_cast<std::size_t>(id.index);
+    return index_of(id);
   }
   void hang(const Shares& shares, double sign);
   [[nodiscard]] Shares read(PanelId panel) const;

@@ -132,7 +132,7 @@ std::vector<std::pair<MemberId, Vec6>> MotionMomentum::brought(const MotionMasse
   }
   if (!(lost > 0)) return to_members;
   for (const auto& [id, mass] : gained) {
-    if (!(mass > 0) || !takes(id)) continue;
+    if (!(mass > 0) || !includes(id)) continue;
     const Vec6 own = per_kilogram(id);
     Vec6 brought = -mass * own;
     brought.head<3>() += mass / lost * momentum;
@@ -142,7 +142,7 @@ std::vector<std::pair<MemberId, Vec6>> MotionMomentum::brought(const MotionMasse
   return to_members;
 }
 
-bool MotionMomentum::takes(MemberId member) const {
+bool MotionMomentum::includes(MemberId member) const {
   return motion_.moves(from_.statics.component(member)) && from_.parts.stands(member);
 }
 
@@ -165,10 +165,10 @@ std::vector<std::pair<MemberId, Vec6>> MotionMomentum::shared(const MotionMasses
   for (const Shares* shares : {&masses_.shares(panel.panel).members, &panel.before.members}) {
     double whole = 0;
     for (const auto& [member, mass] : *shares)
-      if (takes(member)) whole += mass;
+      if (includes(member)) whole += mass;
     if (!(whole > 0)) continue;
     for (const auto& [member, mass] : *shares) {
-      if (!takes(member)) continue;
+      if (!includes(member)) continue;
       const Vec3 own = mass / whole * momentum;
       Vec6& given = to_members.emplace_back(member, Vec6::Zero()).second;
       given << own, middle(member).cross(own);

@@ -40,7 +40,7 @@ class MotionMomentum {
 
  private:
   using Shares = std::vector<std::pair<MemberId, double>>;
-  [[nodiscard]] bool takes(MemberId member) const;
+  [[nodiscard]] bool includes(MemberId member) const;
   [[nodiscard]] Vec3 middle(MemberId member) const;
   [[nodiscard]] Vec6 per_kilogram(MemberId member) const;
 

@@ -8,8 +8,8 @@ struct MotionSettings {
   /// seed building peak within 1 % of all its modes after a loss, at four 0.3 % of them do not (docs/dynamics.md).
   /// Longer: peaks are missed; shorter: dearer.
   double longest_substep = 1.0 / 480;
-  /// What a substep leaves of motion that it cannot resolve: the shock of a break or a blow dies away in some substeps.
-  /// What resolved motion loses is accounted on its own.
+  /// What a substep leaves of motion that it cannot resolve: the shock of a break or an impact dies away in some
+  /// substeps. What resolved motion loses is accounted on its own.
   double spectral_radius = 0.8;
   /// Shares of critical damping. Steel below its yield stress, and concrete that cracks (N. M. Newmark, W. J. Hall,
   /// Earthquake Spectra and Design, 1982: 2 to 3 % and 3 to 5 % at half of yield). Members of several materials count
@@ -18,7 +18,7 @@ struct MotionSettings {
   /// Pa: at least this stiff is a metal (aluminium has 70 GPa, the stiffest concrete 50).
   double metal_modulus = 60e9;
   /// Of each joint's capacity: what counts as rest. Smaller: it moves on for longer, with the same breaks.
-  double rest_use = 0.01;
+  double rest_utilisation = 0.01;
   /// m: the same for displacements, where no joint has a capacity.
   double rest_displacement = 1e-3;
   /// s between looks for rest: each is a static answer.

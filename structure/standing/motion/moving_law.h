@@ -1,6 +1,6 @@
 #pragma once
-// The law of the joints of a component that moves: capacities as the building has them; the largest uses are remembered
-// as they come.
+// The law of the joints of a component that moves: capacities as the building has them; it keeps the largest
+// utilisations.
 #include <span>
 #include <vector>
 
@@ -15,9 +15,9 @@ class MovingLaw : public solver::JointLaw {
   MovingLaw(const MotionSources& sources, int component)
       : from_(sources), members_(sources.statics.members(component)) {}
 
-  [[nodiscard]] double beam_use(int beam, const solver::Vec12& forces) const override;
+  [[nodiscard]] double beam_utilisation(int beam, const solver::Vec12& forces) const override;
   /// Throws std::runtime_error where it is not finite.
-  [[nodiscard]] double end_use(int beam, int end, const solver::Vec12& forces) const override;
+  [[nodiscard]] double end_utilisation(int beam, int end, const solver::Vec12& forces) const override;
   [[nodiscard]] std::span<const solver::PlasticHinge> plastic_hinges() const override { return hinges_; }
   /// As they are in the component now.
   void set_hinges(std::vector<solver::PlasticHinge> hinges) { hinges_ = std::move(hinges); }

@@ -91,7 +91,7 @@ bool StandingMotion::rests(int c) {
       if (!from_.building[joint].capacity.breakable || !from_.parts.standing(joint)) continue;
       Vec6 most = member_joint_demand(off, end).cwiseAbs() + member_joint_demand(rate, end).cwiseAbs() / slowest;
       for (int sign = 0; sign < 2; ++sign) {
-        if (!(from_.joints.used(joint, most).value <= settings_.rest_use)) return false;
+        if (!(from_.joints.used(joint, most).value <= settings_.rest_utilisation)) return false;
         most(0) = -most(0);
       }
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The static state of a structure whose axial forces act on it as it lies, by its elastic answers alone.
+// Second-order statics (P-Delta) by iteration over elastic answers: axial forces act on the displaced structure.
 #include <functional>
 #include <vector>
 

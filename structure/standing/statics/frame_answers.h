@@ -52,7 +52,7 @@ class FrameAnswers : public FrameNumbers {
 
   // The answer as solved last.
   [[nodiscard]] const Vec6& displacement(NodeId node) const;
-  /// What flowing hinges hold included. They outlive a mechanism that solve() finds later.
+  /// What yielding hinges hold included. They outlive a mechanism that solve() finds later.
   [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const;
   /// The same without the geometric forces of second order: those of what strains the member.
   [[nodiscard]] solver::Vec12 elastic_end_forces(MemberId member) const;
@@ -108,7 +108,7 @@ class FrameAnswers : public FrameNumbers {
     solver::FrameDynamics* moving = nullptr;
   };
   /// Of a member with hinges: what those that yield hold, how far those that unload have slipped, and the stiffness
-  /// of both ends with the flowing ones released.
+  /// of both ends with the yielding ones released.
   struct Hinges {
     std::array<Vec6, 2> stiffness;
     solver::Vec12 held = solver::Vec12::Zero(), plastic_rotation = solver::Vec12::Zero();

@@ -58,8 +58,8 @@ FrameNumbers::FrameNumbers(const Building& building, const Frame& frame, std::ve
     models[c].beams.push_back(beam);
     parts_[c].members.push_back(MemberId(m));
   }
-  place_panels(building, frame, models);
-  place_supports(building, frame, models);
+  number_panels(building, frame, models);
+  number_supports(building, frame, models);
   for (solver::Diaphragm diaphragm : frame.model.diaphragms) {
     const auto c = component(diaphragm.nodes.front());
     for (int& node : diaphragm.nodes) node = local(node);
@@ -69,7 +69,8 @@ FrameNumbers::FrameNumbers(const Building& building, const Frame& frame, std::ve
 
 /// Membranes as the frame has them; a shell panel as one element between its nodes, with the stiffness that its
 /// superelement will give it.
-void FrameNumbers::place_panels(const Building& building, const Frame& frame, std::vector<solver::FrameModel>& models) {
+void FrameNumbers::number_panels(const Building& building, const Frame& frame,
+                                 std::vector<solver::FrameModel>& models) {
   const auto local = [&](int node) { return node_place_[static_cast<std::size_t>(node)].local; };
   const auto component = [&](int node) {
     return static_cast<std::size_t>(node_place_[static_cast<std::size_t>(node)].component);
@@ -98,8 +99,8 @@ void FrameNumbers::place_panels(const Building& building, const Frame& frame, st
   }
 }
 
-void FrameNumbers::place_supports(const Building& building, const Frame& frame,
-                                  std::vector<solver::FrameModel>& models) {
+void FrameNumbers::number_supports(const Building& building, const Frame& frame,
+                                   std::vector<solver::FrameModel>& models) {
   const auto local = [&](int node) { return node_place_[static_cast<std::size_t>(node)].local; };
   const auto component = [&](int node) {
     return static_cast<std::size_t>(node_place_[static_cast<std::size_t>(node)].component);

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/index_of.h"
 #include "topple/structure/frame.h"
 
 namespace topple::structure {
@@ -47,7 +48,7 @@ class FrameNumbers {
   };
   template <class Tag>
   static std::size_t index(Id<Tag> id) {
-    return static_cast<std::size_t>(id.index);
+    return index_of(id);
   }
   /// A panel is a patch of its component's frame: one element with a stiffness that is given.
   [[nodiscard]] bool is_patch(PanelId panel) const { return patch_[index(panel)] != 0; }
@@ -65,8 +66,8 @@ class FrameNumbers {
     std::vector<PanelId> membranes, shells;  ///< shells and patches of the model, in order
   };
   [[nodiscard]] const Parts& of(int component) const { return parts_[static_cast<std::size_t>(component)]; }
-  void place_panels(const Building& building, const Frame& frame, std::vector<solver::FrameModel>& models);
-  void place_supports(const Building& building, const Frame& frame, std::vector<solver::FrameModel>& models);
+  void number_panels(const Building& building, const Frame& frame, std::vector<solver::FrameModel>& models);
+  void number_supports(const Building& building, const Frame& frame, std::vector<solver::FrameModel>& models);
 
   std::vector<Parts> parts_;  ///< per component
   std::vector<char> patch_;   ///< per panel

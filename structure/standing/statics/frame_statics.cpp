@@ -93,17 +93,18 @@ void FrameStatics::forget(int number) {
 }
 
 /// A component's beams and shells as members and membranes.
-class FrameStatics::Adapter : public solver::UseWatch {
+class FrameStatics::Adapter : public solver::UtilisationWatch {
  public:
   Adapter(const FrameStatics& statics, int component, MemberWatch& watch)
       : statics_(statics), component_(component), watch_(watch) {}
-  double beam_use(int beam) override {
+  double beam_utilisation(int beam) override {
     const MemberId member = statics_.members(component_)[static_cast<std::size_t>(beam)];
     statics_.read_end_forces(member);
-    return watch_.member_use(member, statics_.end_forces_[index(member)]);
+    return watch_.member_utilisation(member, statics_.end_forces_[index(member)]);
   }
-  double shell_use(int shell) override {
-    return watch_.membrane_use(membrane(shell), statics_.state(component_).analysis->shell_corner_forces(shell));
+  double shell_utilisation(int shell) override {
+    return watch_.membrane_utilisation(membrane(shell),
+                                       statics_.state(component_).analysis->shell_corner_forces(shell));
   }
   double beam_growth(int beam, const double (&root)[12]) override {
     return watch_.member_growth(statics_.members(component_)[static_cast<std::size_t>(beam)],
@@ -146,9 +147,10 @@ std::optional<FrameMechanism> FrameStatics::solve(int number, MemberWatch& watch
     component.partial = component.unwatched = component.analysis->selective_effort().selective;
     // A factor in the warning band serves no selective answers, and nothing was read.
     if (!component.partial && !component.analysis->uses_known()) {
-      for (std::size_t beam = 0; beam < members(number).size(); ++beam) (void)adapter.beam_use(static_cast<int>(beam));
+      for (std::size_t beam = 0; beam < members(number).size(); ++beam)
+        (void)adapter.beam_utilisation(static_cast<int>(beam));
       for (std::size_t shell = 0; shell < membranes(number).size(); ++shell)
-        (void)adapter.shell_use(static_cast<int>(shell));
+        (void)adapter.shell_utilisation(static_cast<int>(shell));
     }
   }
   return told(number, answer);

@@ -15,15 +15,15 @@ struct FrameMechanism {
   std::vector<Vec6> motion;
 };
 
-/// What a selective answer must not leave out (solver::UseWatch), in the building's ids.
+/// What a selective answer must not leave out (solver::UtilisationWatch), in the building's ids.
 class MemberWatch {
  public:
   virtual ~MemberWatch() = default;
-  /// The member's end forces (the membrane's corner forces) were brought up to date: reads them; the largest use. No
-  /// other may be asked for meanwhile.
-  [[nodiscard]] virtual double member_use(MemberId member, const solver::Vec12& end_forces) = 0;
-  [[nodiscard]] virtual double membrane_use(PanelId membrane, const std::array<Vec6, 4>& corner_forces) = 0;
-  /// As UseWatch's growths.
+  /// The member's end forces (the membrane's corner forces) were brought up to date: reads them; the largest
+  /// utilisation. No other may be asked for meanwhile.
+  [[nodiscard]] virtual double member_utilisation(MemberId member, const solver::Vec12& end_forces) = 0;
+  [[nodiscard]] virtual double membrane_utilisation(PanelId membrane, const std::array<Vec6, 4>& corner_forces) = 0;
+  /// As UtilisationWatch's growths.
   [[nodiscard]] virtual double member_growth(MemberId member, const solver::Vec12& root) = 0;
   [[nodiscard]] virtual double membrane_growth(PanelId membrane, const std::array<Vec6, 4>& root) = 0;
 };
@@ -73,7 +73,7 @@ class FrameStatics : public FrameAnswers {
   /// Makes the answer whole; the watch reads what was left out.
   void complete(int component, MemberWatch& watch);
   /// Capacities changed.
-  void forget_uses(int component) { state(component).analysis->forget_uses(); }
+  void forget_utilisations(int component) { state(component).analysis->forget_utilisations(); }
   /// What uses are counted from changed.
   void forget_references(int component) { state(component).analysis->forget_references(); }
   /// Nothing of the component stands: there is nothing to solve.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/index_of.h"
 #include "simulation/debris/mass_properties.h"
 
 namespace topple::structure {
@@ -121,12 +122,12 @@ BentPart bent_panel(const Building& building, PanelId id, const std::array<Vec3,
 
 std::array<Vec3, 4> moved_corners(const Building& building, PanelId id, const StandingShapes& standing,
                                   const KeptShapes& parts) {
-  const auto index = static_cast<std::size_t>(id.index);
+  const auto index = index_of(id);
   const auto& kept = parts.panel_shape[index];
   const bool stands = parts.panel[index] == part_stands;
   std::array<Vec3, 4> moved;
   for (std::size_t c = 0; c < 4; ++c) {
-    const auto node = static_cast<std::size_t>(building[id].nodes[c].index);
+    const auto node = index_of(building[id].nodes[c]);
     moved[c] = stands ? Vec3(standing.displacements[node].head<3>().cast<double>())
                : kept ? Vec3((*kept)[c].cast<double>())
                       : Vec3::Zero();
@@ -136,7 +137,7 @@ std::array<Vec3, 4> moved_corners(const Building& building, PanelId id, const St
 
 MemberShape drawn_shape(const Building& building, MemberId id, const StandingShapes& standing,
                         const KeptShapes& parts) {
-  const auto index = static_cast<std::size_t>(id.index);
+  const auto index = index_of(id);
   if (parts.member[index] == part_stands) return standing.of(building, index);
   const auto& kept = parts.member_shape[index];
   return kept ? *kept : MemberShape();

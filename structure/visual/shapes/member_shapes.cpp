@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "model/index_of.h"
+
 namespace topple::structure {
 namespace {
 
@@ -45,7 +47,7 @@ MemberShape shape_of_nodes(const Building& building, MemberId id, std::span<cons
   const Member& member = building[id];
   MemberShape shape;
   for (std::size_t end = 0; end < 2; ++end) {
-    Displacement& own = shape.ends[end] = displacements[static_cast<std::size_t>(member.nodes[end].index)];
+    Displacement& own = shape.ends[end] = displacements[index_of(member.nodes[end])];
     own.head<3>() += own.tail<3>().cross(Eigen::Vector3f(member.offsets[end].cast<float>()));
   }
   return shape;

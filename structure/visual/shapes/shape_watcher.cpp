@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "model/index_of.h"
+
 namespace topple::structure {
 namespace {
 
@@ -21,8 +23,8 @@ std::shared_ptr<KeptShapes> read_places(const Simulation& simulation) {
   for (std::size_t i = 0; i < building.panels.size(); ++i) parts->panel.push_back(place(PanelId(i)));
   int index = 0;
   for (const BodyView& body : simulation.bodies()) {
-    for (const MemberId id : body.members) parts->member[static_cast<std::size_t>(id.index)] = index;
-    for (const PanelId id : body.panels) parts->panel[static_cast<std::size_t>(id.index)] = index;
+    for (const MemberId id : body.members) parts->member[index_of(id)] = index;
+    for (const PanelId id : body.panels) parts->panel[index_of(id)] = index;
     ++index;
   }
   parts->member_shape.resize(parts->member.size());
@@ -41,7 +43,7 @@ struct LettingGo {
 
 void keep_shape(KeptShapes& now, const LettingGo& part, const StandingShapes& stood_by, const Building& building) {
   NearestMotion motion;
-  const auto moved = [&](NodeId node) { return stood_by.displacements[static_cast<std::size_t>(node.index)]; };
+  const auto moved = [&](NodeId node) { return stood_by.displacements[index_of(node)]; };
   for (const std::size_t i : part.members) {
     const MemberShape shape = stood_by.of(building, i);
     for (const std::size_t end : {0U, 1U}) motion.add(end_of(building, building.members[i], end), shape.ends[end]);
@@ -97,7 +99,7 @@ void ShapeWatcher::read_yields(const Simulation& simulation) {
     const SimulationEvent& event = events[yielded_events_];
     if (event.kind != SimulationEvent::Kind::joint_yielded) continue;
     if (const MemberId member = simulation.building()[event.joint.joint].member; member.valid())
-      yielded_[static_cast<std::size_t>(member.index)] = true;
+      yielded_[index_of(member)] = true;
   }
 }
 

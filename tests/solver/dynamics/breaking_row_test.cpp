@@ -48,8 +48,10 @@ struct Break {
 class TensionLimit : public JointLaw {
  public:
   explicit TensionLimit(double capacity) : capacity_(capacity) {}
-  [[nodiscard]] double beam_use(int beam, const Vec12& forces) const override { return end_use(beam, 0, forces); }
-  [[nodiscard]] double end_use(int beam, int end, const Vec12& forces) const override {
+  [[nodiscard]] double beam_utilisation(int beam, const Vec12& forces) const override {
+    return end_utilisation(beam, 0, forces);
+  }
+  [[nodiscard]] double end_utilisation(int beam, int end, const Vec12& forces) const override {
     return beam < count && end == 0 ? -forces(0) / capacity_ : 0;
   }
 

@@ -358,10 +358,10 @@ TEST_CASE("With damping impulses go by a factor of their own, through all that c
 TEST_CASE("A beam that breaks off within a substep leaves with the momentum that its joints left it") {
   class First : public JointLaw {
    public:
-    [[nodiscard]] double beam_use(int beam, const Vec12& forces) const override {
-      return std::max(end_use(beam, 0, forces), end_use(beam, 1, forces));
+    [[nodiscard]] double beam_utilisation(int beam, const Vec12& forces) const override {
+      return std::max(end_utilisation(beam, 0, forces), end_utilisation(beam, 1, forces));
     }
-    [[nodiscard]] double end_use(int beam, int end, const Vec12& forces) const override {
+    [[nodiscard]] double end_utilisation(int beam, int end, const Vec12& forces) const override {
       return beam == 1 ? forces.segment<3>(6 * end).norm() / 200.0 : 0;
     }
   };

@@ -12,8 +12,10 @@ namespace {
 class MomentLimit : public JointLaw {
  public:
   explicit MomentLimit(double capacity) : capacity_(capacity) {}
-  [[nodiscard]] double beam_use(int beam, const Vec12& forces) const override { return end_use(beam, 1, forces); }
-  [[nodiscard]] double end_use(int beam, int end, const Vec12& forces) const override {
+  [[nodiscard]] double beam_utilisation(int beam, const Vec12& forces) const override {
+    return end_utilisation(beam, 1, forces);
+  }
+  [[nodiscard]] double end_utilisation(int beam, int end, const Vec12& forces) const override {
     return beam == 2 && end == 1 ? forces.tail<3>().norm() / capacity_ : 0;
   }
 
@@ -25,10 +27,10 @@ class MomentLimit : public JointLaw {
 class LetGo : public JointLaw {
  public:
   bool now = false;
-  [[nodiscard]] double beam_use(int beam, const Vec12& forces) const override {
-    return std::max(end_use(beam, 0, forces), end_use(beam, 1, forces));
+  [[nodiscard]] double beam_utilisation(int beam, const Vec12& forces) const override {
+    return std::max(end_utilisation(beam, 0, forces), end_utilisation(beam, 1, forces));
   }
-  [[nodiscard]] double end_use(int beam, int end, const Vec12& forces) const override {
+  [[nodiscard]] double end_utilisation(int beam, int end, const Vec12& forces) const override {
     if (beam != 2) return 0;
     if (end == 1) return forces.tail<3>().norm() / 2000;
     return now ? 2 : 0;

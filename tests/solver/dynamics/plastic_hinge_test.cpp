@@ -11,8 +11,8 @@ namespace {
 class Yielding : public JointLaw {
  public:
   explicit Yielding(std::vector<PlasticHinge> hinges) : hinges_(std::move(hinges)) {}
-  [[nodiscard]] double beam_use(int, const Vec12&) const override { return 0; }
-  [[nodiscard]] double end_use(int, int, const Vec12&) const override { return 0; }
+  [[nodiscard]] double beam_utilisation(int, const Vec12&) const override { return 0; }
+  [[nodiscard]] double end_utilisation(int, int, const Vec12&) const override { return 0; }
   [[nodiscard]] std::span<const PlasticHinge> plastic_hinges() const override { return hinges_; }
 
  private:

@@ -22,12 +22,12 @@ TEST_CASE("a load that follows from the motion is taken until it stays, and give
   SettlingLoad load;
   load.begin(pair(4, 8));
   CHECK(over(load, 0.25) == pair(4, 8));
-  CHECK(load.take(pair(8, 0)) == SettlingLoad::Pass::open);
+  CHECK(load.iterate(pair(8, 0)) == SettlingLoad::Pass::open);
   CHECK(over(load, 0.25) == pair(7, 2));
-  CHECK(load.take(pair(8, 1e-9)) == SettlingLoad::Pass::settled);
+  CHECK(load.iterate(pair(8, 1e-9)) == SettlingLoad::Pass::settled);
   CHECK(over(load, 0.25) == pair(7, 2));
-  CHECK(load.take(pair(8, 1e-7)) == SettlingLoad::Pass::open);
-  CHECK(load.take(pair(std::numeric_limits<double>::infinity(), 0)) == SettlingLoad::Pass::lost);
+  CHECK(load.iterate(pair(8, 1e-7)) == SettlingLoad::Pass::open);
+  CHECK(load.iterate(pair(std::numeric_limits<double>::infinity(), 0)) == SettlingLoad::Pass::lost);
   load.give_up();
   CHECK(over(load, 0.25) == pair(4, 8));
 }

@@ -269,7 +269,7 @@ TEST_CASE("a wall hangs on each edge that holds, and falls without any") {
   frame.break_joint(b.joint(PanelId(2u), 0), BreakCause::tool);
   (void)frame.settle(1000);
   CHECK(frame.stands(PanelId(2u)));  // by the post PB
-  CHECK(frame.take_detached().empty());
+  CHECK(frame.extract_detached().empty());
   frame.break_joint(b.joint(PanelId(2u), 1), BreakCause::tool);
   (void)frame.settle(1000);
   CHECK_FALSE(frame.stands(PanelId(2u)));
@@ -277,7 +277,7 @@ TEST_CASE("a wall hangs on each edge that holds, and falls without any") {
   for (const char* name : {"AB", "PB", "PB/2", "PA", "PC"}) CHECK(frame.stands(*names.member(name)));
   CHECK(frame.stands(PanelId(0u)));
   CHECK(frame.stands(PanelId(1u)));
-  const std::vector<Detached> left = frame.take_detached();
+  const std::vector<Detached> left = frame.extract_detached();
   REQUIRE(left.size() == 1);
   CHECK(left[0].panels == std::vector<PanelId>{PanelId(2u)});
   CHECK(left[0].members.empty());
@@ -302,7 +302,7 @@ TEST_CASE("members that a wall alone holds leave with it") {
   CHECK_FALSE(frame.stands(PanelId(2u)));
   CHECK(frame.stands(*names.member("AB")));
   // PC, which stands on a pin, has lost its hold as well.
-  std::vector<Detached> left = frame.take_detached();
+  std::vector<Detached> left = frame.extract_detached();
   std::erase_if(left, [](const Detached& part) { return part.panels.empty(); });
   REQUIRE(left.size() == 1);
   CHECK(left[0].panels == std::vector<PanelId>{PanelId(2u)});

@@ -101,7 +101,7 @@ TEST_CASE("the state after a loss beside shells is that of the model without the
       CHECK(used.value == Approx(own).epsilon(1e-7).margin(1e-9));
       worst = std::max(worst, own);
     }
-    CHECK(state.use.value == Approx(worst));
+    CHECK(state.utilisation.value == Approx(worst));
     CHECK(state.joints.size() ==
           static_cast<std::size_t>(std::count_if(rest.joints.begin(), rest.joints.end(),
                                                  [](const Joint& joint) { return joint.capacity.breakable; })));
@@ -117,7 +117,7 @@ TEST_CASE("losses beside shells leave no trace in the next") {
   REQUIRE(together.losses.size() == members.size());
   for (const MemberLoss& loss : together.losses) {
     const LossResult alone = find_losses(building, {CombinationId(0u)}, {{loss.member}, {}, 2, {}}, {});
-    CHECK(alone.losses[0].states[0].use.value == Approx(loss.states[0].use.value).epsilon(1e-9));
+    CHECK(alone.losses[0].states[0].utilisation.value == Approx(loss.states[0].utilisation.value).epsilon(1e-9));
     CHECK(alone.losses[0].states[0].worst == loss.states[0].worst);
   }
 }

@@ -86,7 +86,7 @@ TEST_CASE("the static state after a loss is the one in which a collapse finds th
     }
     CHECK(state.joints.size() == holding);
     CHECK(difference < 1e-8 * largest);  // rounding times the condition of the building, about 1e6
-    CHECK(state.use.value == Approx(largest));
+    CHECK(state.utilisation.value == Approx(largest));
     CHECK(state.end_forces.size() + 1 == building.members.size());
   }
 }
@@ -101,12 +101,12 @@ TEST_CASE("a loss is found by correction, once for each, and leaves no trace in 
   // Once as it stands, and again before each further sixteen, which are found together.
   CHECK(all.counters.solves == posts.size() + 1 + (posts.size() - 1) / 16);
   for (std::size_t k = 0; k + 1 < all.losses.size(); ++k)
-    CHECK(all.losses[k].states[0].use.value >= all.losses[k + 1].states[0].use.value);
+    CHECK(all.losses[k].states[0].utilisation.value >= all.losses[k + 1].states[0].utilisation.value);
   for (const std::size_t k : {std::size_t{0}, posts.size() / 2, posts.size() - 1}) {
     const MemberLoss& loss = all.losses[k];
     CHECK(loss.states[0].displacements.empty());
     const LossResult alone = losses(building, {loss.member}, 2);
-    CHECK(alone.losses[0].states[0].use.value == Approx(loss.states[0].use.value).epsilon(1e-9));
+    CHECK(alone.losses[0].states[0].utilisation.value == Approx(loss.states[0].utilisation.value).epsilon(1e-9));
   }
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("a loss that leaves a mechanism names what moves, and the next loss is
   REQUIRE(of(outer).stands());
   CHECK(of(outer).worst == frame.building.joint(inner, 0));
   // What is left is a cantilever of 4 m under 1 kN/m.
-  CHECK(losses(frame.building, {outer}, 1).losses[0].states[0].use.demand == Approx(8e3));
+  CHECK(losses(frame.building, {outer}, 1).losses[0].states[0].utilisation.demand == Approx(8e3));
   CHECK_FALSE(of(inner).stands());
 }
 

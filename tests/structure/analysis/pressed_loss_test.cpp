@@ -233,7 +233,7 @@ TEST_CASE("A pressed post that loses its strut swings as sqrt(1 - P/Pcr) has it,
     const double moment = 2 * at_rest * (k * ProppedPost::height + P);
     REQUIRE(state.dynamic->joints.size() == 1);
     CHECK(std::abs(state.dynamic->joints[0].demand(4)) == Approx(moment).epsilon(5e-3));
-    CHECK(state.dynamic->joints[0].use.value > 0);
+    CHECK(state.dynamic->joints[0].utilisation.value > 0);
     // Beside the same by first order.
     const AnalysisResult plain = analyse(post.frame.building, dynamic(post.strut, false, period));
     const MotionResult& first_order = *plain.losses.losses.at(0).states.at(0).dynamic;

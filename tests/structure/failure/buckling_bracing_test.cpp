@@ -157,7 +157,7 @@ TEST_CASE("a post breaks where its critical shape bends most: at a joint that ca
       CHECK(breaks[0].cause == BreakCause::buckling);
       CHECK(breaks[0].capacity == Approx(critical).epsilon(1e-6));
       CHECK(breaks[0].demand == Approx(1.01 * critical).epsilon(1e-6));
-      const auto detached = standing.take_detached();
+      const auto detached = standing.extract_detached();
       // Clamped ends bend as much as the middle, and a joint that can break goes first.
       if (ends == Ends::sways || (ends == Ends::clamped && breakable)) {
         CHECK(!breaks[0].inside);

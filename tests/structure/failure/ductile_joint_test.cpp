@@ -80,7 +80,7 @@ TEST_CASE("a fixed beam under a central load collapses at 8 Mp/L") {
     const auto breaks = standing.settle(20);
     CHECK(standing.stands(beam.left) == (share < 1));
     CHECK(breaks.empty() == (share < 1));
-    if (share > 1) CHECK(standing.take_yielded().size() >= 3);
+    if (share > 1) CHECK(standing.extract_yielded().size() >= 3);
   }
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("a fixed beam under uniform load yields at its ends at 12 Mp/L2, in th
     StandingFrame standing(beam.frame.building, CombinationId(0u), quiet());
     // At the start the elastic state is over the capacity: the excess is shed in the first generation.
     const auto breaks = standing.settle(20);
-    const auto yielded = standing.take_yielded();
+    const auto yielded = standing.extract_yielded();
     CHECK(standing.stands(beam.left) == (q < collapse));
     if (q < first) CHECK(yielded.empty());
     if (q < first || q > collapse) continue;
@@ -132,7 +132,7 @@ TEST_CASE("a fixed beam under uniform load yields at its ends at 12 Mp/L2, in th
     CHECK(std::abs(standing.demand(yielded[0].joint)(4)) == Approx(residual).epsilon(rounding));
     CHECK(std::abs(standing.demand(inner)(4)) == Approx(residual).epsilon(rounding));
     CHECK(-standing.displacement(beam.middle)(2) == Approx(sag - q * std::pow(L, 4) / (384 * EI)).epsilon(rounding));
-    CHECK(standing.take_yielded().empty());
+    CHECK(standing.extract_yielded().empty());
     both_ends_turned();
     check_energy(standing);
   }
@@ -157,7 +157,7 @@ TEST_CASE("a portal with built-in feet sways at 4 Mp/h") {
     CHECK(breaks.empty() == (share < 1));
     if (share < 1) {
       CHECK(standing.stands(pb));
-      CHECK(standing.take_yielded().size() >= 2);
+      CHECK(standing.extract_yielded().size() >= 2);
       check_energy(standing);
     }
   }
@@ -175,7 +175,7 @@ TEST_CASE("an elastic-plastic spring of ductility m bears 1 - 1/(2 m) of its yie
       const auto breaks = standing.settle(20);
       CHECK(breaks.empty() == (share < 1));
       CHECK(standing.stands(beam.beam) == (share < 1));
-      const auto yielded = standing.take_yielded();
+      const auto yielded = standing.extract_yielded();
       REQUIRE(yielded.size() == 1);
       if (share > 1) {
         CHECK(breaks[0].sense == Sense::moment_y);
@@ -198,7 +198,7 @@ TEST_CASE("below half of its yield force an elastic-plastic spring stays elastic
   StandingFrame standing(beam.frame.building, CombinationId(0u), quiet(2));
   standing.add_load(beam.tip, down(0.499 * moment / L));
   CHECK(standing.settle(20).empty());
-  CHECK(standing.take_yielded().empty());
+  CHECK(standing.extract_yielded().empty());
   CHECK(standing.energy().dissipated == 0);
   CHECK(standing.largest_utilisation_so_far(beam.frame.building.joint(beam.beam, 0)) == Approx(0.998));
 }
@@ -222,7 +222,7 @@ TEST_CASE("a joint that yields in torsion twists on under its torque and breaks 
     const double applied = far ? 1.001 * limit_torque : 2 * torque + 0.5 * GJ / L * rotation;
     standing.add_load(m, (Vec6() << 0, 0, 0, applied, 0, 0).finished());
     const auto breaks = standing.settle(20);
-    REQUIRE(standing.take_yielded().size() == 1);
+    REQUIRE(standing.extract_yielded().size() == 1);
     CHECK(standing.displacement(m)(3) == Approx((applied - (far ? 0 : torque)) * L / GJ).epsilon(rounding));
     CHECK(breaks.size() == (far ? 1u : 0u));
     CHECK(standing.stands(left));
@@ -243,6 +243,6 @@ TEST_CASE("a joint that is weakened below what it bears yields, and its neighbou
   CHECK(std::abs(standing.demand(root)(4)) == Approx(0.65 * end).epsilon(rounding));
   CHECK(std::abs(standing.demand(beam.frame.building.joint(beam.right, 1))(4)) ==
         Approx(1.175 * end).epsilon(rounding));
-  CHECK(standing.take_yielded().size() == 1);
+  CHECK(standing.extract_yielded().size() == 1);
   check_energy(standing);
 }

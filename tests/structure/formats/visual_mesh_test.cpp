@@ -204,7 +204,7 @@ TEST_CASE("what is drawn over a chunk of a panel goes with it, standing or shatt
   }
 }
 
-TEST_CASE("a drawn model is bent with its members") {
+TEST_CASE("a visual mesh is bent with its members") {
   // A cantilever of 4 m with a load at its end, and the same with a pinned prop there.
   const auto cantilever = [](const std::string& joint, const std::string& more) {
     return parse_model(R"({"topple": 1, "title": "Arm",

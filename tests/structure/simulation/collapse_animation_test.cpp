@@ -325,7 +325,7 @@ TEST_CASE("an animation shows what remains of a wall from its break on, and a pi
   CHECK(compared > 100);
 }
 
-TEST_CASE("an animation holds the drawn model, each piece while it is one") {
+TEST_CASE("an animation holds the visual mesh, each piece while it is one") {
   const std::filesystem::path file = find_model("seed_house");
   auto [building, scenario] = read_scenario(find_scenario("seed_house_hit"));
   scenario.duration = 3;

@@ -163,15 +163,15 @@ TEST_CASE("what hits a floor from below goes into its edges, more into those tha
   const FreePush push{{}, floor.parts.panels[0], at, Vec3(0, 0, F)};
   const auto answer = segment.bear({&push, 1}, Vec3::Zero(), Vec3::Zero());
   const auto hit = by_joint(answer);
-  // The beams weigh nothing: what the edges do to the slab keeps its own inertia and the blow in balance, so it is
+  // The beams weigh nothing: what the edges do to the slab keeps its own inertia and the impact in balance, so it is
   // nothing in sum, and in moment.
   Vec3 force = Vec3::Zero();
   for (int edge = 0; edge < 4; ++edge)
     force += hit.at(floor.edge(edge)).head<3>() * floor.length[static_cast<std::size_t>(edge)];
   CHECK(force.norm() < 1e-5 * F);
-  // Held back in place instead (as heavy beams would): all of the blow goes into the edges, by their distance.
-  const PanelPush blow{at, Vec3(0, 0, F)};
-  const auto held = free_panel_edge_demands(floor.frame.building, floor.parts.panels[0], floor.length, {&blow, 1});
+  // Held back in place instead (as heavy beams would): all of the impact goes into the edges, by their distance.
+  const PanelPush impact{at, Vec3(0, 0, F)};
+  const auto held = free_panel_edge_demands(floor.frame.building, floor.parts.panels[0], floor.length, {&impact, 1});
   double sum = 0, about_y = 0;
   const std::array<double, 4> place{3, 6, 3, 0};
   for (std::size_t edge = 0; edge < 4; ++edge) {

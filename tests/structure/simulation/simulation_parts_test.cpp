@@ -86,7 +86,7 @@ TEST_CASE("events carry the time of their step, and each listener hears each of 
   CHECK(heard == std::vector<std::string>{"cut", f.building[broken.joint].name});
   EventLog again(scene);
   again.record(SimulationEvent::Kind::tool, "before");
-  again.set_listeners(log.take_listeners());
+  again.set_listeners(log.extract_listeners());
   again.record(SimulationEvent::Kind::tool, "after");
   again.call_listeners();
   CHECK(heard.back() == "after");

@@ -73,8 +73,8 @@ TEST_CASE("the log of breaks tells what a joint bears, in the generation that ru
   CHECK(line.capacity == 1e9);
   CHECK(line.demand == Approx(weight * length * length / 2).epsilon(rounding));
   CHECK(line.position == Vec3(0, 0, 3));
-  CHECK(all.breaks.take().size() == 1);
-  CHECK(all.breaks.take().empty());
+  CHECK(all.breaks.extract().size() == 1);
+  CHECK(all.breaks.extract().empty());
 }
 
 TEST_CASE("a joint that breaks is told to segments, statics and joints, and what hung on it leaves with the release") {
@@ -91,10 +91,10 @@ TEST_CASE("a joint that breaks is told to segments, statics and joints, and what
   CHECK(all.damage.leaves_open());
   CHECK_FALSE(all.departures.any());  // nobody has looked yet
   all.damage.break_joint(root, BreakCause::tool);
-  CHECK(all.breaks.take().size() == 1);  // it was broken already
+  CHECK(all.breaks.extract().size() == 1);  // it was broken already
   all.release.release();
   CHECK_FALSE(all.damage.leaves_open());
-  const std::vector<Detached> left = all.departures.take();
+  const std::vector<Detached> left = all.departures.extract();
   REQUIRE(left.size() == 1);
   CHECK(left[0].members == std::vector<MemberId>{MemberId(0u), MemberId(1u)});
   CHECK_FALSE(left[0].mechanism);
@@ -117,12 +117,12 @@ TEST_CASE("a post that is cut in two leaves with both ends to hang by, told once
   all.release.cut_in_two(post, 0.25);
   all.generations.bring_up_to_date();
   all.release.cut_in_two(post, 0.25);  // it stands no more
-  const std::vector<JointBreak> told = all.breaks.take();
+  const std::vector<JointBreak> told = all.breaks.extract();
   REQUIRE(told.size() == 1);
   CHECK(told[0].cause == BreakCause::buckling);
   CHECK(told[0].inside == 0.25);
   CHECK(told[0].position == Vec3(0, 0, 3.75));
-  const std::vector<Detached> left = all.departures.take();
+  const std::vector<Detached> left = all.departures.extract();
   REQUIRE(left.size() == 1);
   CHECK(left[0].members == std::vector<MemberId>{post});
   CHECK(left[0].cut == 0.25);
@@ -152,7 +152,7 @@ TEST_CASE("what comes on slowly moves the reference along, what a tool brings do
   all.generations.bring_up_to_date();
   CHECK(moment(all.state.joints.demand(other)) == Approx(own + more).epsilon(rounding));
   CHECK(moment(all.state.joints.reference(other)) == Approx(own).epsilon(rounding));
-  CHECK(all.state.joints.felt(other).demand == Approx(own + factor * more).epsilon(rounding));
+  CHECK(all.state.joints.amplified(other).demand == Approx(own + factor * more).epsilon(rounding));
 }
 
 TEST_CASE(
@@ -171,9 +171,9 @@ TEST_CASE(
   CHECK(all.breaks.size() == 0);
   CHECK_FALSE(all.generations.run(10));
   CHECK(all.breaks.generation() == 1);
-  const std::vector<JointBreak> told = all.breaks.take();
+  const std::vector<JointBreak> told = all.breaks.extract();
   REQUIRE(told.size() == 1);
   CHECK(told[0].joint == f.building.joint(MemberId(0u), 0));
   CHECK(told[0].cause == BreakCause::overload);
-  CHECK(all.departures.take().size() == 1);
+  CHECK(all.departures.extract().size() == 1);
 }

@@ -37,7 +37,7 @@ struct Parts {
         node_solved(building.nodes.size(), 1),
         response({parts, shells, loads, statics, joints, components, node_solved}),
         contacts(response, loads) {
-    (void)loads.take_changed();  // all of them, at first
+    (void)loads.extract_changed();  // all of them, at first
     for (int c = 0; c < statics.components(); ++c) REQUIRE_FALSE(statics.solve(c));
   }
   StandingParts parts;
@@ -136,7 +136,7 @@ TEST_CASE("contact loads act while they are there, and leave with what they lie 
   CHECK(all.contacts.set(weight));
   CHECK_FALSE(all.contacts.set(weight));  // it is there already
   CHECK(all.loads.changed());
-  CHECK(all.loads.take_changed().members == std::vector<MemberId>{MemberId(1u)});
+  CHECK(all.loads.extract_changed().members == std::vector<MemberId>{MemberId(1u)});
   CHECK(all.loads.on(MemberId(1u)).size() == 2);  // its own, and the weight
   all.contacts.drop(MemberId(3u));
   CHECK(all.contacts.all().size() == 1);
@@ -185,11 +185,11 @@ TEST_CASE("the way to rest needs no frame around it: a fixed beam sheds what its
   CHECK(std::abs(all.statics.end_forces(left)(4)) == Approx(moment).epsilon(1e-9));
   CHECK(std::abs(all.statics.end_forces(right)(10)) == Approx(moment).epsilon(1e-9));
   CHECK(std::abs(all.statics.end_forces(left)(10)) == Approx(force * length / 4 - moment).epsilon(1e-9));
-  const std::vector<JointBreak> yielded = way.take_yielded();
+  const std::vector<JointBreak> yielded = way.extract_yielded();
   REQUIRE(yielded.size() == 2);
   CHECK(yielded[0].generation == generation);
   CHECK(yielded[0].capacity == moment);
-  CHECK(way.take_yielded().empty());
+  CHECK(way.extract_yielded().empty());
   // What the hinges took is their moment times their turn: of each end F L2/16 EI less Mp L/2 EI.
   std::vector<JointBreak> none;
   account.finish(c, false, none);
@@ -223,7 +223,7 @@ TEST_CASE("energies need no frame around them: a sudden load frees Clapeyron's h
   all.statics.set_load(tip, load);
   REQUIRE_FALSE(all.statics.solve(c));
   CHECK(loaded.finish(c, false, lines).freed == Approx(stored).epsilon(rounding));  // F u less 1/2 F u
-  loaded.hand_over(rest);
+  loaded.commit_to(rest);
   rest.record(c);
   CHECK(rest.elastic(c, {}) == Approx(stored).epsilon(rounding));
   CHECK(rest.load_work(c).other == Approx(2 * stored).epsilon(rounding));
@@ -244,7 +244,7 @@ TEST_CASE("energies need no frame around them: a sudden load frees Clapeyron's h
   const ChangeFromRest::Sums sums = broken.finish(c, false, lines);
   CHECK(sums.freed == Approx(stored).epsilon(rounding));
   CHECK(sums.left.other == Approx(2 * stored).epsilon(rounding));  // the work that the load has done stays done
-  broken.hand_over(rest);
+  broken.commit_to(rest);
   rest.record(c);
   // Nothing but rounding of what was there.
   CHECK(std::abs(rest.elastic(c, {})) < rounding * stored);

@@ -58,7 +58,7 @@ Collapse collapse(const Building& building, const FailureRules& rules, int selec
       if (look) look(frame);
     }
   }
-  for (const Detached& part : frame.take_detached()) result.left += part.members.size();
+  for (const Detached& part : frame.extract_detached()) result.left += part.members.size();
   for (std::size_t j = 0; j < building.joints.size(); ++j) {
     result.used.push_back(frame.utilisation(JointId(j)).value);
     result.largest.push_back(frame.largest_utilisation_so_far(JointId(j)));
@@ -90,7 +90,7 @@ Trial brittle_trial(int number, std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("restricted answers break the same joints in the same order as whole ones") {
+TEST_CASE("selective answers break the same joints in the same order as whole ones") {
   std::mt19937 random(23);
   std::size_t broken = 0, left = 0;
   int differing_work = 0;

@@ -181,5 +181,5 @@ TEST_CASE("energies balance over a cascade of generations with membrane slabs, a
   }
   CHECK(steps < 500);
   CHECK(broken > 5);
-  CHECK_FALSE(standing.take_detached().empty());
+  CHECK_FALSE(standing.extract_detached().empty());
 }

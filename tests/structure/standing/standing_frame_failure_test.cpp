@@ -58,7 +58,7 @@ TEST_CASE("a portal that loses a post's foot hangs on the other post") {
   // The post's local z is global x's... whatever the axes: the moment is q L^2/2 about global y alone.
   CHECK(standing.demand(foot).tail<3>().norm() == Approx(q * span * span / 2).epsilon(rounding));
   CHECK(standing.stands(pb));
-  CHECK(standing.take_detached().empty());
+  CHECK(standing.extract_detached().empty());
   CHECK_FALSE(standing.pending());
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("a sudden loss is checked at R0 + f (R - R0) and settles at R") {
       CHECK(breaks[1].sense == Sense::moment_y);
       CHECK(breaks[1].demand == Approx(peak).epsilon(rounding));
       CHECK_FALSE(standing.stands(beam));
-      const auto detached = standing.take_detached();
+      const auto detached = standing.extract_detached();
       REQUIRE(detached.size() == 1);
       CHECK(detached[0].members == std::vector<MemberId>{beam});
       CHECK_FALSE(detached[0].mechanism);
@@ -145,7 +145,7 @@ TEST_CASE("an overhang breaks at its root when it is longer than the joints bear
     StandingFrame standing(frame.building, CombinationId(0u), quiet());
     standing.remove_support(nodes.back());
     const auto breaks = standing.settle(10);
-    const auto detached = standing.take_detached();
+    const auto detached = standing.extract_detached();
     if (bays <= 3) {
       CHECK(breaks.empty());
       CHECK(detached.empty());
@@ -205,7 +205,7 @@ TEST_CASE("equal joints break together, in order of id") {
   REQUIRE(breaks.size() == 2);
   CHECK(breaks[0].joint < breaks[1].joint);
   CHECK(breaks[1].generation == 0);
-  CHECK(standing.take_detached().size() == 1);
+  CHECK(standing.extract_detached().size() == 1);
 }
 
 TEST_CASE("a beam that keeps one pin only leaves as a mechanism") {
@@ -216,7 +216,7 @@ TEST_CASE("a beam that keeps one pin only leaves as a mechanism") {
   const auto breaks = standing.settle(10);
   REQUIRE(breaks.size() == 2);
   CHECK(breaks[1].joint == JointId(1u));
-  const auto detached = standing.take_detached();
+  const auto detached = standing.extract_detached();
   REQUIRE(detached.size() == 1);
   CHECK(detached[0].mechanism);
   CHECK(detached[0].members.size() == 1);
@@ -242,7 +242,7 @@ TEST_CASE("the part of a mechanism that moves is released, what holds it breaks,
   const auto breaks = standing.settle(10);
   REQUIRE(breaks.size() == 2);
   CHECK(breaks[1].joint == frame.building.joint(pa, 0));
-  const auto detached = standing.take_detached();
+  const auto detached = standing.extract_detached();
   REQUIRE(detached.size() == 1);
   CHECK(detached[0].mechanism);
   CHECK(detached[0].members == std::vector<MemberId>{pa});

@@ -168,7 +168,7 @@ TEST_CASE("random frames fail in the order that analyses from scratch give") {
       REQUIRE(order == expected.fail());
       broken += order.size();
     }
-    for (const Detached& part : standing.take_detached()) left += part.members.size();
+    for (const Detached& part : standing.extract_detached()) left += part.members.size();
   }
   // The comparison means something only when frames do fail.
   CHECK(broken > 100);

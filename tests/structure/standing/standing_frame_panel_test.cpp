@@ -83,7 +83,7 @@ TEST_CASE("a slab that loses a beam spans between the opposite pair that is left
   standing.remove(table.beam[2]);
   CHECK(standing.settle(10).empty());
   CHECK_FALSE(standing.stands(table.slab));
-  const auto detached = standing.take_detached();
+  const auto detached = standing.extract_detached();
   REQUIRE(detached.size() == 1);
   CHECK(detached[0].panels == std::vector<PanelId>{table.slab});
   CHECK(detached[0].members.empty());
@@ -109,7 +109,7 @@ TEST_CASE("an overloaded slab edge breaks and the slab goes the other way until 
     CHECK(breaks[2].demand == Approx(6000).epsilon(rounding));
     CHECK(breaks[2].generation == 1);
     CHECK_FALSE(standing.stands(table.slab));
-    CHECK(standing.take_detached().size() == 1);
+    CHECK(standing.extract_detached().size() == 1);
   }
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("a slab goes with the part that holds a pair of its edges, and stays w
     StandingFrame standing(building, CombinationId(0u), quiet());
     for (int i = 0; i < 4; ++i) standing.break_joint(building.joint(table.post[i], 0), BreakCause::tool);
     standing.settle(10);
-    const auto detached = standing.take_detached();
+    const auto detached = standing.extract_detached();
     REQUIRE(detached.size() == 1);
     CHECK(detached[0].members.size() == 8);
     CHECK(detached[0].panels == std::vector<PanelId>{table.slab});
@@ -130,7 +130,7 @@ TEST_CASE("a slab goes with the part that holds a pair of its edges, and stays w
     StandingFrame standing(building, CombinationId(0u), quiet());
     for (int end = 0; end < 2; ++end) standing.break_joint(building.joint(table.beam[3], end), BreakCause::tool);
     standing.settle(10);
-    const auto detached = standing.take_detached();
+    const auto detached = standing.extract_detached();
     REQUIRE(detached.size() == 1);
     CHECK(detached[0].members == std::vector<MemberId>{table.beam[3]});
     CHECK(detached[0].panels.empty());

@@ -139,7 +139,7 @@ TEST_CASE("A joint breaks when the swing reaches its capacity, and what it held 
   CHECK(breaks[1].cause == BreakCause::overload);
   const double substep = step / 8, at = (n - 1) * step + breaks[1].generation * substep;
   CHECK(std::abs(at + substep / 2 - reached) < substep);
-  const auto left = standing.take_detached();
+  const auto left = standing.extract_detached();
   REQUIRE(left.size() == 1);
   REQUIRE(left[0].motion);
   // It falls freely for the rest of its substep.
@@ -218,7 +218,7 @@ TEST_CASE("A bar that softens hands over its load at rest, and what cannot bear 
         Approx(4 * MassOnBars::weight / MassOnBars::stiffness).epsilon(1e-9));
 }
 
-TEST_CASE("A blow on a bar is borne by the bar alone, its nodes held, and its impulse is the frame's") {
+TEST_CASE("An impact on a bar is borne by the bar alone, its nodes held, and its impulse is the frame's") {
   MassOnBars model(1e12, 1e12);
   StandingFrame standing(model.frame.building, CombinationId(0u), moving_rules());
   standing.let_move(step);

@@ -60,7 +60,7 @@ TEST_CASE("A root that yields under a weight that is suddenly its own turns as f
   while (steps == 0 || (standing.pending() && steps < 3600)) {
     ++steps;
     CHECK(standing.move().size() == (steps == 1 ? 1 : 0));
-    for (const JointBreak& one : standing.take_yielded()) yielded.push_back(one);
+    for (const JointBreak& one : standing.extract_yielded()) yielded.push_back(one);
     lowest = std::min(lowest, standing.displacement(model.tip).z());
     CHECK(std::abs(unbalanced(standing.energy())) < 1e-9 * standing.energy().gravity_work);  // rounding
   }
@@ -91,7 +91,7 @@ TEST_CASE("A root that bears less than its weight turns until it breaks, and its
     for (const JointBreak& one : standing.move()) breaks.push_back(one);
   REQUIRE(breaks.size() == 2);
   CHECK(breaks[1].joint == model.root());
-  CHECK(standing.take_detached().size() == 1);
+  CHECK(standing.extract_detached().size() == 1);
   CHECK(standing.energy().dissipated ==
         Approx(ProppedTip::weight * ProppedTip::length / 1.3 * largest_turn).epsilon(0.1));
 }

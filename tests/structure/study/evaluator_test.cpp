@@ -91,7 +91,7 @@ TEST_CASE("Losses as samples have the same bits in any order, and are those of o
                                    [&](const MemberLoss& loss) { return loss.member == lost[k]; });
     double worst = 0;
     for (const LossState& state : same->states)
-      worst = std::max(worst, state.stands() ? state.use.value : std::numeric_limits<double>::infinity());
+      worst = std::max(worst, state.stands() ? state.utilisation.value : std::numeric_limits<double>::infinity());
     // Both to a backward error of rounding, by other roundings; what is nearly a mechanism, with uses of hundreds, is
     // as much worse conditioned.
     if (std::isfinite(worst))

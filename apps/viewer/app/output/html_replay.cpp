@@ -87,7 +87,7 @@ class ReplayData {
     data["bent"] = std::move(bent_);
     data["panels"] = panels();
     data["shapes"] = shapes();
-    data["places"] = places();
+    data["places"] = positions();
     data["tracks"] = tracks();
     data["drawn"] = drawn();
     data["failed"] = failed();
@@ -194,7 +194,7 @@ class ReplayData {
   }
 
   /// [part, frame, track] for each change of place after the first frame.
-  [[nodiscard]] Json places() const {
+  [[nodiscard]] Json positions() const {
     const auto all = part_places(building_, recording_);
     std::vector<std::int32_t> changes;
     for (std::size_t part = 0; part < all.size(); ++part)

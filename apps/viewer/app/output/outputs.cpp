@@ -15,7 +15,7 @@ void Outputs::before_picture(Controller& controller) {
   } catch (const std::exception& failed) {
     controller.message = failed.what();
   }
-  if (sequence_) controller.playback().look_at(begin_ + sequence_->count() / sequence_->rate());
+  if (sequence_) controller.playback().seek(begin_ + sequence_->count() / sequence_->rate());
 }
 
 void Outputs::after_picture(Controller& controller, const Renderer& scene) {
@@ -42,7 +42,7 @@ void Outputs::add_to_sequence(Controller& controller, const Image& image) {
   if (next <= controller.driver().recording().span()[1] + rounding) return;
   sequence_->finish();
   sequence_.reset();
-  controller.playback().look_at_present();
+  controller.playback().seek_present();
 }
 
 }  // namespace topple::viewer

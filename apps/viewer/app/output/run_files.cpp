@@ -40,7 +40,7 @@ void RunFiles::save(const std::string& file) {
 
 void RunFiles::load(const std::string& file) {
   const structure::Snapshot saved = structure::read_snapshot(file);
-  playback_.look_at_present();
+  playback_.seek_present();
   driver_.order_and_show([saved](Session& session) { session.load(saved); });
   message_ = "taken up from " + file;
 }

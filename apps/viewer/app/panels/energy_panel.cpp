@@ -59,9 +59,9 @@ void EnergyPanel::plot(Controller& controller, const std::vector<Recording::Ener
   const float width = std::max(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize()),
               height = 9 * ImGui::GetFontSize();
   if (ImGui::InvisibleButton("energies", ImVec2(width, height)) && points.back().time > points.front().time)
-    controller.playback().look_at(points.front().time +
-                                  (points.back().time - points.front().time) *
-                                      static_cast<double>((ImGui::GetIO().MousePos.x - from.x) / width));
+    controller.playback().seek(points.front().time +
+                               (points.back().time - points.front().time) *
+                                   static_cast<double>((ImGui::GetIO().MousePos.x - from.x) / width));
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(from, ImVec2(from.x + width, from.y + height), ImGui::GetColorU32(ImVec4(1, 1, 1, 0.06F)));
   const double length = std::max(points.back().time - points.front().time, 1e-9), range = high > low ? high - low : 1;

@@ -18,20 +18,20 @@ void PlayPanel::goals(Controller& controller) {
   // Weighing all that lies about takes longer than a picture may: some times a second is enough.
   constexpr std::int64_t interval = 15;
   const std::shared_ptr<const Snapshot> present = controller.driver().moment().later;
-  if (scored_step_ < 0 || std::abs(present->step - scored_step_) >= interval || present->blows != score_.blows ||
+  if (scored_step_ < 0 || std::abs(present->step - scored_step_) >= interval || present->actions != score_.actions ||
       controller.driver().paused()) {
-    if (present->step != scored_step_ || present->blows != score_.blows)
-      score_ = score_of(controller.building(), *present, present->blows);
+    if (present->step != scored_step_ || present->actions != score_.actions)
+      score_ = score_of(controller.building(), *present, present->actions);
     scored_step_ = present->step;
   }
   ImGui::Text("%d points", score_.points());
-  ImGui::Text("down %.0f %%, of it %.0f %% on its own ground, blows %d", 100 * score_.down, 100 * score_.inside,
-              score_.blows);
+  ImGui::Text("down %.0f %%, of it %.0f %% on its own ground, actions %d", 100 * score_.down, 100 * score_.inside,
+              score_.actions);
   goal("nine tenths of the building are down", score_.down >= goal_share);
   goal("nine tenths of that lie within 3 m of where it stood",
        score_.down >= goal_share && score_.inside >= goal_share);
-  goal("by one blow", score_.down >= goal_share && score_.blows == 1);
-  ImGui::TextWrapped("Points: 100 x down x on its own ground, a tenth less for each blow after the first.");
+  goal("by one action", score_.down >= goal_share && score_.actions == 1);
+  ImGui::TextWrapped("Points: 100 x down x on its own ground, a tenth less for each action after the first.");
 }
 
 void PlayPanel::earthquake(Controller& controller) {

@@ -44,7 +44,7 @@ void draw_settings(Hand& hand) {
 void SidePanel::run_bar(Controller& controller) {
   Driver& driver = controller.driver();
   if (ImGui::Button(driver.paused() ? "Run" : "Pause")) {
-    controller.playback().look_at_present();
+    controller.playback().seek_present();
     driver.set_paused(!driver.paused());
   }
   if (std::exchange(controller.window.panels_wanted, false)) ImGui::SetKeyboardFocusHere(-1);

@@ -19,19 +19,19 @@ void Playback::advance(double seconds) {
   }
 }
 
-void Playback::look_at(double time) {
+void Playback::seek(double time) {
   const auto span = driver_.recording().span();
   looking_at_ = std::clamp(time, span[0], span[1]);
   driver_.set_paused(true);
 }
 
-void Playback::look_along(double seconds) {
+void Playback::seek_by(double seconds) {
   const std::array<double, 2> span = driver_.recording().span();
   const double time = looking_at_.value_or(span[1]) + seconds;
-  time < span[1] ? look_at(std::max(time, span[0])) : look_at_present();
+  time < span[1] ? seek(std::max(time, span[0])) : seek_present();
 }
 
-void Playback::look_at_present() {
+void Playback::seek_present() {
   looking_at_.reset();
   replaying_ = false;
 }
@@ -39,7 +39,7 @@ void Playback::look_at_present() {
 void Playback::go_on_from_here() {
   if (!looking_at_) return;
   const std::int64_t step = driver_.recording().at(*looking_at_).step;
-  look_at_present();
+  seek_present();
   driver_.order_and_show([step](Session& session) { session.return_to(step); });
 }
 

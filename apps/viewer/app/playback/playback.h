@@ -11,11 +11,11 @@ class Playback {
   explicit Playback(Driver& driver) : driver_(driver) {}
 
   /// s, within what was recorded; the simulation pauses.
-  void look_at(double time);
+  void seek(double time);
   /// From what is looked at; beyond the end of what was recorded is the present.
-  void look_along(double seconds);
+  void seek_by(double seconds);
   static constexpr double key_step = 0.25;  ///< s, of a key
-  void look_at_present();
+  void seek_present();
   /// Plays on from what is looked at, or no more.
   void replay(bool on) { replaying_ = on; }
   [[nodiscard]] bool replaying() const { return replaying_; }

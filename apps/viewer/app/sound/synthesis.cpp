@@ -81,7 +81,7 @@ void rush(std::vector<float>& sound, Noise& noise, double corner, double rise, d
   }
 }
 
-/// One blow: all modes at once, each by chance as it is struck somewhere, and the clap of the contact.
+/// One impact: all modes at once, each by chance as it is struck somewhere, and the clap of the contact.
 void strike(std::vector<float>& sound, std::size_t at, const Modes& modes, Noise& noise, double amplitude) {
   for (std::size_t k = 0; k < modes.frequencies.size(); ++k) {
     const double frequency = modes.frequencies[k] * (1 + 0.02 * noise.next());
@@ -90,7 +90,7 @@ void strike(std::vector<float>& sound, std::size_t at, const Modes& modes, Noise
   }
 }
 
-/// Small pieces that fall and roll after it: blows at random times, fewer and weaker as time goes.
+/// Small pieces that fall and roll after it: impacts at random times, fewer and weaker as time goes.
 void rattle(std::vector<float>& sound, Look look, Noise& noise, int pieces, double over) {
   for (int i = 0; i < pieces; ++i) {
     const double share = noise.share(), at = over * share * share;

@@ -1,5 +1,5 @@
 #pragma once
-// What a blow, a break, a fire or an explosion sounds like, computed from what happened: no recorded sounds.
+// What an impact, a break, a fire or an explosion sounds like, computed from what happened: no recorded sounds.
 #include <vector>
 
 #include "renderer/shapes/looks.h"

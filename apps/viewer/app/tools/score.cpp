@@ -45,22 +45,23 @@ class Weighing {
   void add(const structure::Member& member, int place) {
     const double mass = building_[member.material].density * building_[member.section].area * member.length;
     whole_ += mass;
-    book(mass, (building_[member.nodes[0]].position + building_[member.nodes[1]].position) / 2, place);
+    add_mass(mass, (building_[member.nodes[0]].position + building_[member.nodes[1]].position) / 2, place);
   }
   void add(const structure::Panel& panel, int place, const fracture::Mesh* rest) {
     const auto corner = [&](std::size_t i) -> const Vec3& { return building_[panel.nodes[i]].position; };
     const double area = (corner(2) - corner(0)).cross(corner(3) - corner(1)).norm() / 2 - opening_area(panel);
     const double density = building_[panel.material].density, mass = density * area * panel.thickness;
     whole_ += mass;
-    book(rest != nullptr ? density * volume(*rest) : mass, (corner(0) + corner(1) + corner(2) + corner(3)) / 4, place);
+    add_mass(rest != nullptr ? density * volume(*rest) : mass, (corner(0) + corner(1) + corner(2) + corner(3)) / 4,
+             place);
   }
   void add(const BodyPose& body) {
     if (!body.chunk || !body.material.valid()) return;
     lies(building_[body.material].density * volume(*body.chunk), body.position);
   }
-  [[nodiscard]] Score score(int blows) const {
+  [[nodiscard]] Score score(int actions) const {
     Score score;
-    score.blows = blows;
+    score.actions = actions;
     if (whole_ > 0) score.down = std::clamp(1 - standing_ / whole_, 0.0, 1.0);
     if (lying_ > 0) score.inside = inside_ / lying_;
     return score;
@@ -68,7 +69,7 @@ class Weighing {
 
  private:
   /// `at`: where it was in the undeformed building.
-  void book(double mass, const Vec3& at, int place) {
+  void add_mass(double mass, const Vec3& at, int place) {
     if (place == part_stands) standing_ += mass;
     if (place < 0) return;
     const BodyPose& body = moment_.bodies[static_cast<std::size_t>(place)];
@@ -88,17 +89,17 @@ class Weighing {
 
 int Score::points() const {
   const double all = 100 * down * inside;
-  return static_cast<int>(std::lround(std::max(0.0, all * (1 - 0.1 * std::max(0, blows - 1)))));
+  return static_cast<int>(std::lround(std::max(0.0, all * (1 - 0.1 * std::max(0, actions - 1)))));
 }
 
-Score score_of(const Building& building, const Snapshot& moment, int blows) {
+Score score_of(const Building& building, const Snapshot& moment, int actions) {
   Weighing weighing(building, moment);
   const Membership& where = *moment.membership;
   for (std::size_t i = 0; i < building.members.size(); ++i) weighing.add(building.members[i], where.member[i]);
   for (std::size_t i = 0; i < building.panels.size(); ++i)
     weighing.add(building.panels[i], where.panel[i], i < where.broken.size() ? where.broken[i].get() : nullptr);
   for (const BodyPose& body : moment.bodies) weighing.add(body);
-  return weighing.score(blows);
+  return weighing.score(actions);
 }
 
 }  // namespace topple::viewer

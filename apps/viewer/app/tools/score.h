@@ -5,12 +5,12 @@
 
 namespace topple::viewer {
 
-/// The goal: all of it down, on its own ground, with one blow.
+/// The goal: all of it down, on its own ground, with one action.
 struct Score {
   double down = 0;    ///< share of the building's mass that stands no more
   double inside = 1;  ///< share of the mass of bodies that lies within the footprint and `score_margin` around it
-  int blows = 0;      ///< what was done to it
-  /// 100 down inside, less a tenth of that for each blow after the first; never below 0.
+  int actions = 0;    ///< what was done to it
+  /// 100 down inside, less a tenth of that for each action after the first; never below 0.
   [[nodiscard]] int points() const;
 };
 inline constexpr double score_margin = 3;  ///< m
@@ -18,6 +18,6 @@ inline constexpr double goal_share = 0.9;  ///< of the mass: a goal is reached
 
 /// Masses are those of members and panels (density times volume), of broken ones by what is left of their meshes. The
 /// footprint is the box around all nodes, in global x and y.
-[[nodiscard]] Score score_of(const structure::Building& building, const Snapshot& moment, int blows);
+[[nodiscard]] Score score_of(const structure::Building& building, const Snapshot& moment, int actions);
 
 }  // namespace topple::viewer

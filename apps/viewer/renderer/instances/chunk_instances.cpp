@@ -15,13 +15,13 @@ bool is_shown(const ViewOptions& options, structure::PieceKind kind) {
 
 }  // namespace
 
-void ChunkInstances::place(const Snapshot& snapshot, const ViewOptions& options, bool bend) {
+void ChunkInstances::update(const Snapshot& snapshot, const ViewOptions& options, bool bend) {
   for (auto& batch : batches_) batch.instances.clear();
-  place_chunks(snapshot, options);
-  place_broken_panels(snapshot, options, bend);
+  update_chunks(snapshot, options);
+  update_broken_panels(snapshot, options, bend);
 }
 
-void ChunkInstances::place_chunks(const Snapshot& snapshot, const ViewOptions& options) {
+void ChunkInstances::update_chunks(const Snapshot& snapshot, const ViewOptions& options) {
   if (!options.debris) return;
   const bool materials = options.colouring == Colouring::materials;
   for (const BodyPose& body : snapshot.bodies) {
@@ -86,7 +86,7 @@ void ChunkInstances::bend_broken_panel(std::size_t index, const Snapshot& snapsh
 
 /// What remains of panels that are broken in part: at rest where it stood, else moved with its body. `bend`: what
 /// stands is bent otherwise than before.
-void ChunkInstances::place_broken_panels(const Snapshot& snapshot, const ViewOptions& options, bool bend) {
+void ChunkInstances::update_broken_panels(const Snapshot& snapshot, const ViewOptions& options, bool bend) {
   for (std::size_t i = 0; i < building_.panels.size(); ++i) {
     const auto& mesh = snapshot.membership->broken[i];
     const int place = snapshot.membership->panel[i];

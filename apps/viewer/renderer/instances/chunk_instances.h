@@ -17,7 +17,7 @@ class ChunkInstances {
       : building_(building), origin_(origin) {}
 
   /// `bend`: what stands is bent otherwise than before.
-  void place(const Snapshot& snapshot, const ViewOptions& options, bool bend);
+  void update(const Snapshot& snapshot, const ViewOptions& options, bool bend);
   [[nodiscard]] const std::vector<InstanceBatch<RigidInstance>>& batches() const { return batches_; }
 
  private:
@@ -29,8 +29,8 @@ class ChunkInstances {
     std::vector<glm::vec3> rest;
     std::array<Eigen::Vector3f, 4> moved{};
   };
-  void place_chunks(const Snapshot& snapshot, const ViewOptions& options);
-  void place_broken_panels(const Snapshot& snapshot, const ViewOptions& options, bool bend);
+  void update_chunks(const Snapshot& snapshot, const ViewOptions& options);
+  void update_broken_panels(const Snapshot& snapshot, const ViewOptions& options, bool bend);
   void bend_broken_panel(std::size_t panel, const Snapshot& snapshot, const ViewOptions& options, BrokenPanel& drawn);
   [[nodiscard]] std::size_t bars_of_chunk(structure::MaterialId material) const;
 

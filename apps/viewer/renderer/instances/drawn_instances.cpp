@@ -23,7 +23,7 @@ void DrawnInstances::bend(const DrawnPiece& piece, const Snapshot& snapshot, con
   ++batch.mesh_revision;
 }
 
-void DrawnInstances::place(const Snapshot& snapshot, const ViewOptions& options, bool bend_anew) {
+void DrawnInstances::update(const Snapshot& snapshot, const ViewOptions& options, bool bend_anew) {
   for (auto& batch : batches_) batch.instances.clear();
   if (!snapshot.drawn || !options.drawn) return;
   for (const DrawnPiece& piece : *snapshot.drawn) {

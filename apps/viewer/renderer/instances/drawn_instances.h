@@ -15,7 +15,7 @@ class DrawnInstances {
       : building_(building), origin_(origin) {}
 
   /// `bend`: what stands is bent otherwise than before.
-  void place(const Snapshot& snapshot, const ViewOptions& options, bool bend);
+  void update(const Snapshot& snapshot, const ViewOptions& options, bool bend);
   /// Batches are only ever added. One that is gone has no instance.
   [[nodiscard]] const std::vector<InstanceBatch<RigidInstance>>& batches() const { return batches_; }
 

@@ -42,14 +42,14 @@ SceneInstances::SceneInstances(const Building& building, std::optional<double> g
       drawn_(building, origin_),
       torn_ends_(building),
       overlays_(building, bounds_) {
-  place_members();
-  place_panels();
+  build_members();
+  build_panels();
   projectiles_.mesh = sphere_mesh(24);
   piers_.mesh = pier_mesh();
   if (ground) pier_places_ = piers_of(building_, *ground);
 }
 
-void SceneInstances::place_members() {
+void SceneInstances::build_members() {
   members_.resize(building_.sections.size());
   for (std::size_t i = 0; i < building_.sections.size(); ++i) {
     const structure::Section& section = building_.sections[i];
@@ -69,7 +69,7 @@ void SceneInstances::place_members() {
   member_width_ = static_cast<float>(*middle);
 }
 
-void SceneInstances::place_panels() {
+void SceneInstances::build_panels() {
   for (const Panel& panel : building_.panels) {
     auto& shapes = batches(panel);
     if (shapes.empty()) {
@@ -93,12 +93,12 @@ void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options
             snapshot.shape_scale, snapshot.tuned,      snapshot.path};
   if (changed) torn_ends_.find(moving_members_, *snapshot.answer);
   append_moving(snapshot);
-  torn_ends_.place(moving_members_, parts_, snapshot, options);
+  torn_ends_.update(moving_members_, parts_, snapshot, options);
   overlays_.draw_marks(parts_, snapshot, options);
-  chunks_.place(snapshot, options, changed);
-  drawn_.place(snapshot, options, changed);
+  chunks_.update(snapshot, options, changed);
+  drawn_.update(snapshot, options, changed);
   dust_.clear();
-  if (options.dust && snapshot.dust) place_dust(*snapshot.dust, snapshot.time, origin_, dust_);
+  if (options.dust && snapshot.dust) append_dust(*snapshot.dust, snapshot.time, origin_, dust_);
 }
 
 bool SceneInstances::Built::same(const Snapshot& snapshot, const ViewOptions& now) const {
@@ -142,7 +142,7 @@ void SceneInstances::rebuild_standing(const Snapshot& snapshot, const ViewOption
   }
   close(members_), close(slabs_), close(walls_);
   seen_bent_ = is_seen_bent(snapshot);
-  place_piers(snapshot, options);
+  build_piers(snapshot, options);
   overlays_.draw_forces(parts_, snapshot, options);
 }
 
@@ -167,7 +167,7 @@ bool SceneInstances::is_seen_bent(const Snapshot& snapshot) const {
   return false;
 }
 
-void SceneInstances::place_piers(const Snapshot& snapshot, const ViewOptions& options) {
+void SceneInstances::build_piers(const Snapshot& snapshot, const ViewOptions& options) {
   piers_.instances.clear();
   for (const Pier& pier : pier_places_) {
     if (options.colouring != Colouring::materials || !snapshot.membership->supports[pier.support]) continue;

@@ -85,10 +85,10 @@ class SceneInstances {
     std::shared_ptr<const std::vector<float>> path;
     [[nodiscard]] bool same(const Snapshot& snapshot, const ViewOptions& now) const;
   };
-  void place_members();
-  void place_panels();
+  void build_members();
+  void build_panels();
   void rebuild_standing(const Snapshot& snapshot, const ViewOptions& options);
-  void place_piers(const Snapshot& snapshot, const ViewOptions& options);
+  void build_piers(const Snapshot& snapshot, const ViewOptions& options);
   void append_moving(const Snapshot& snapshot);
   [[nodiscard]] bool is_seen_bent(const Snapshot& snapshot) const;
   [[nodiscard]] std::size_t section_of(std::size_t member) const {

@@ -50,8 +50,8 @@ void TornEndInstances::add(std::size_t index, int end, const MemberInstance& ins
       {place, packed(facing), glm::vec3(1), look_colour(Look::concrete), rest});
 }
 
-void TornEndInstances::place(const std::vector<MovingPart>& members, const PartInstances& parts,
-                             const Snapshot& snapshot, const ViewOptions& options) {
+void TornEndInstances::update(const std::vector<MovingPart>& members, const PartInstances& parts,
+                              const Snapshot& snapshot, const ViewOptions& options) {
   for (auto& batch : batches_) batch.instances.clear();
   // So many ends are too small in the picture to be told from plain ones.
   constexpr std::size_t most = 2000;

@@ -16,8 +16,8 @@ class TornEndInstances {
   /// nothing else of its body hangs.
   void find(const std::vector<MovingPart>& members, const FrameAnswer& answer);
   /// Of the same members, where their bodies are now.
-  void place(const std::vector<MovingPart>& members, const PartInstances& parts, const Snapshot& snapshot,
-             const ViewOptions& options);
+  void update(const std::vector<MovingPart>& members, const PartInstances& parts, const Snapshot& snapshot,
+              const ViewOptions& options);
   /// Variants of each section, in their order.
   [[nodiscard]] const std::vector<InstanceBatch<RigidInstance>>& batches() const { return batches_; }
 

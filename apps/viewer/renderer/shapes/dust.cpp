@@ -198,8 +198,8 @@ void DustWatcher::find_landings(const structure::Simulation& simulation) {
 namespace {
 
 /// Where a point of the undeformed building is that moves with this member; none: the member is gone.
-std::optional<Eigen::Vector3d> place_with(const structure::Simulation& simulation, structure::MemberId member,
-                                          const Eigen::Vector3d& at) {
+std::optional<Eigen::Vector3d> position_with(const structure::Simulation& simulation, structure::MemberId member,
+                                             const Eigen::Vector3d& at) {
   const auto body = simulation.body_of(member);
   if (body.value == part_stands) return at;
   const auto bodies = simulation.bodies();
@@ -247,7 +247,7 @@ void DustWatcher::burn_on(const structure::Simulation& simulation) {
       };
       const Eigen::Vector3d at =
           of_joint ? end(static_cast<std::size_t>(building[joint].end)) : Eigen::Vector3d((end(0) + end(1)) / 2);
-      if (const auto place = place_with(simulation, member, at)) fire_at(*place, now, size, fire.kind);
+      if (const auto place = position_with(simulation, member, at)) fire_at(*place, now, size, fire.kind);
     }
   }
 }
@@ -275,7 +275,7 @@ std::shared_ptr<const std::vector<DustPuff>> DustWatcher::watch(const structure:
 namespace {
 
 /// Thrown out fast, held up by the air, thinned out as it spreads, carried by the wind.
-void place_cloud(const DustPuff& puff, float age, const glm::vec3& at, std::vector<DustInstance>& instances) {
+void append_cloud(const DustPuff& puff, float age, const glm::vec3& at, std::vector<DustInstance>& instances) {
   const float spread = 1 - std::exp(-2.2F * age), left = 1 - age / static_cast<float>(dust_life);
   // What little there is of a small puff is thin.
   const float opacity =
@@ -294,7 +294,7 @@ void place_cloud(const DustPuff& puff, float age, const glm::vec3& at, std::vect
 }
 
 /// Each flies by itself and cools.
-void place_sparks(const DustPuff& puff, float age, const glm::vec3& at, std::vector<DustInstance>& instances) {
+void append_sparks(const DustPuff& puff, float age, const glm::vec3& at, std::vector<DustInstance>& instances) {
   const int count = std::clamp(static_cast<int>(static_cast<float>(most_sparks) * puff.size), 6, most_sparks);
   for (int i = 0; i < count; ++i) {
     const std::uint64_t word = static_cast<std::uint64_t>(puff.number * 4 * most_sparks + 4 * i);
@@ -311,7 +311,7 @@ void place_sparks(const DustPuff& puff, float age, const glm::vec3& at, std::vec
 }
 
 /// A ball that glows, cools to smoke, and is carried off.
-void place_blast(const DustPuff& puff, float age, const glm::vec3& at, std::vector<DustInstance>& instances) {
+void append_blast(const DustPuff& puff, float age, const glm::vec3& at, std::vector<DustInstance>& instances) {
   const float spread = 1 - std::exp(-9 * age), cold = std::min(1.0F, age / ball_life);
   const float left = 1 - age / static_cast<float>(dust_life), drift = std::max(0.0F, age - 0.3F);
   const auto glow = static_cast<unsigned>(255 * (1 - cold) * (1 - cold));
@@ -330,7 +330,7 @@ void place_blast(const DustPuff& puff, float age, const glm::vec3& at, std::vect
 }
 
 /// A lick of flame that rises and goes out, and the smoke that it leaves.
-void place_fire(const DustPuff& puff, float age, const glm::vec3& at, std::vector<DustInstance>& instances) {
+void append_fire(const DustPuff& puff, float age, const glm::vec3& at, std::vector<DustInstance>& instances) {
   constexpr int flames = 3;
   const auto word = static_cast<std::uint64_t>(puff.number) * 16;
   const glm::vec3 aside(puff.size * (noise(word) - 0.5F), puff.size * (noise(word + 1) - 0.5F), 0);
@@ -357,24 +357,24 @@ void place_fire(const DustPuff& puff, float age, const glm::vec3& at, std::vecto
 
 }  // namespace
 
-void place_dust(const std::vector<DustPuff>& puffs, double time, const glm::dvec3& origin,
-                std::vector<DustInstance>& instances) {
+void append_dust(const std::vector<DustPuff>& puffs, double time, const glm::dvec3& origin,
+                 std::vector<DustInstance>& instances) {
   for (const DustPuff& puff : puffs) {
     const auto age = static_cast<float>(time - puff.time);
     if (age < 0 || age >= static_cast<float>(dust_life)) continue;
     const glm::vec3 at(glm::dvec3(puff.position.x(), puff.position.y(), puff.position.z()) - origin);
     switch (puff.kind) {
       case DustPuff::Kind::dust:
-        place_cloud(puff, age, at, instances);
+        append_cloud(puff, age, at, instances);
         break;
       case DustPuff::Kind::sparks:
-        place_sparks(puff, age, at, instances);
+        append_sparks(puff, age, at, instances);
         break;
       case DustPuff::Kind::blast:
-        place_blast(puff, age, at, instances);
+        append_blast(puff, age, at, instances);
         break;
       case DustPuff::Kind::fire:
-        place_fire(puff, age, at, instances);
+        append_fire(puff, age, at, instances);
         break;
     }
   }

@@ -78,7 +78,7 @@ struct DustInstance {
 /// J, of the impact that throws up a cloud of this size.
 [[nodiscard]] double energy_of(const DustPuff& puff);
 /// What is seen of the puffs at an instant.
-void place_dust(const std::vector<DustPuff>& puffs, double time, const glm::dvec3& origin,
-                std::vector<DustInstance>& instances);
+void append_dust(const std::vector<DustPuff>& puffs, double time, const glm::dvec3& origin,
+                 std::vector<DustInstance>& instances);
 
 }  // namespace topple::viewer

@@ -67,15 +67,15 @@ struct PlasticHinge {
   double largest_turn = 0;  ///< rad, of the plastic rotation of either sign: the joint breaks there
 };
 
-/// What joints can bear: by whatever rule, a use of 1 is the capacity.
+/// What joints can bear: by whatever rule, a utilisation of 1 is the capacity.
 class JointLaw {
  public:
   virtual ~JointLaw() = default;
-  /// The larger of the uses at both ends; end forces local, as StaticSolution has them. Called for every beam in every
-  /// substep.
-  [[nodiscard]] virtual double beam_use(int beam, const Vec12& end_forces) const = 0;
+  /// The larger of the utilisations at both ends; end forces local, as StaticSolution has them. Called for every beam
+  /// in every substep.
+  [[nodiscard]] virtual double beam_utilisation(int beam, const Vec12& end_forces) const = 0;
   /// At one end.
-  [[nodiscard]] virtual double end_use(int beam, int end, const Vec12& end_forces) const = 0;
+  [[nodiscard]] virtual double end_utilisation(int beam, int end, const Vec12& end_forces) const = 0;
   /// What yields, in an order that stays; asked for in every substep. Uses leave these components out.
   [[nodiscard]] virtual std::span<const PlasticHinge> plastic_hinges() const { return {}; }
 };
@@ -136,8 +136,9 @@ struct DynamicCounters {
   std::uint64_t unsettled = 0;  ///< substeps in which a beam was pressed beyond its critical load
 };
 
-/// The motion of a frame, substep by substep: a facade, the parts in solver/dynamics/ own the data. Functions that take
-/// a beam, shell, patch, support or node throw std::invalid_argument for one that does not exist, as Reanalysis does.
+/// The motion of a frame, substep by substep. It is a facade: its many functions are a line or a check each, the parts
+/// in solver/dynamics/ own the data. Functions that take a beam, shell, patch, support or node throw
+/// std::invalid_argument for one that does not exist, as Reanalysis does.
 class FrameDynamics {
  public:
   /// At rest at its unloaded place, all as the model has it. Consistent mass only; throws std::invalid_argument for

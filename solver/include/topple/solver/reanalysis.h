@@ -16,7 +16,7 @@
 
 #include "topple/solver/frame_model.h"
 #include "topple/solver/static_analysis.h"
-#include "topple/solver/use_watch.h"
+#include "topple/solver/utilisation_watch.h"
 
 namespace topple::solver {
 
@@ -44,7 +44,7 @@ struct SelectiveEffort {
   int shells = 0;               ///< visited
   double energy = 0;            ///< strain energy of the change (J)
   double energy_left_out = 0;   ///< of it in the parts left out, at most (J)
-  double largest_left_out = 0;  ///< bound of the uses there
+  double largest_left_out = 0;  ///< bound of the utilisations there
 };
 
 /// The answer's state; displacements and forces are asked of Reanalysis.
@@ -115,16 +115,16 @@ class Reanalysis {
   [[nodiscard]] const ReanalysisAnswer& solve();
 
   /// The same, brought up to date only where the watch's uses may matter: no use that was not read anew lies above
-  /// (1 - margin) max(1, the largest use). Nothing else may be concluded about what was left out; its displacements or
-  /// forces, when asked for, are found beside the answer, which stays as it is: asking changes no bit of what
-  /// follows. The first call reads every use, as does one
-  /// that needs a full answer. Patches have no uses: with any it throws std::invalid_argument; call solve().
-  [[nodiscard]] const ReanalysisAnswer& solve(UseWatch& watch);
-  /// Makes a selective answer whole, with the backward error of a full one; the watch reads the uses of what was left
-  /// out.
-  void complete(UseWatch* watch = nullptr);
+  /// (1 - margin) max(1, the largest utilisation). Nothing else may be concluded about what was left out; its
+  /// displacements or forces, when asked for, are found beside the answer, which stays as it is: asking changes no bit
+  /// of what follows. The first call reads every utilisation, as does one that needs a full answer. Patches have none:
+  /// with any it throws std::invalid_argument; call solve().
+  [[nodiscard]] const ReanalysisAnswer& solve(UtilisationWatch& watch);
+  /// Makes a selective answer whole, with the backward error of a full one; the watch reads the utilisations of what
+  /// was left out.
+  void complete(UtilisationWatch* watch = nullptr);
   /// To be called when capacities changed: the next solve(watch) reads everything again.
-  void forget_uses();
+  void forget_utilisations();
   /// The same when only what uses are counted from changed: what they can grow by is still known.
   void forget_references();
   /// These beams will be removed one at a time, each restored before the next, with the loads as they are: the factor
@@ -134,8 +134,8 @@ class Reanalysis {
   void expect_losses(std::span<const int> beams);
   /// Replaces the rules for background factors.
   void set_refresh(RefreshRules rules);
-  /// The uses that the last solve(watch) counts on were all read. False while the structure is in the warning band:
-  /// its answers are full, and nothing is read.
+  /// The utilisations that the last solve(watch) counts on were all read. False while the structure is in the warning
+  /// band: its answers are full, and nothing is read.
   [[nodiscard]] bool uses_known() const;
   /// Of the last solve().
   [[nodiscard]] const SelectiveEffort& selective_effort() const;

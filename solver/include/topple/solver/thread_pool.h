@@ -28,7 +28,7 @@ class ThreadPool {
 
  private:
   void wait_for_loops();
-  void take_turns();
+  void run_loop_turns();
 
   std::atomic_flag busy_;
   std::mutex turns_;

@@ -1,6 +1,6 @@
 #pragma once
 // A collapse as a glTF animation: one node for each member, panel, chunk and ball, by its name, for what remains of a
-// panel after each break, and for each piece of a drawn model.
+// panel after each break, and for each piece of a visual mesh.
 #include <memory>
 #include <string>
 
@@ -10,7 +10,7 @@
 namespace topple::structure {
 
 /// Records poses and bends frame by frame, as StandingShapes and KeptShapes have them, to drawn_tolerance; pieces of a
-/// drawn model as they were drawn, moved with their bodies.
+/// visual mesh as they were drawn, moved with their bodies.
 class CollapseAnimation {
  public:
   /// `rate`: frames for each simulated second, above 0. `drawn`: recorded as it is when frames are added; it has to

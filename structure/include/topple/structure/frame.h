@@ -30,12 +30,12 @@ struct SemiRigidNode {
   Mat3 translations = Mat3::Identity();  ///< columns: unit directions, global
   Mat3 rotations = Mat3::Identity();     ///< columns: unit axes, global
 };
-/// An element of a shell panel with a corner at a joint that gives: a patch over its four nodes and `giving` ones. The
-/// shell of the same number is left for its mass.
+/// An element of a shell panel with a corner at a joint that gives: a patch over its four nodes and the semi-rigid
+/// ones. The shell of the same number is left for its mass.
 struct SemiRigidElement {
-  int shell = -1;                             ///< index in FrameModel::shells
-  std::array<int, 4> giving{-1, -1, -1, -1};  ///< of each corner, in Frame::semi_rigid_nodes
-  Eigen::Matrix<double, 24, 24> stiffness;    ///< in the absolute freedoms of its corners
+  int shell = -1;                                      ///< index in FrameModel::shells
+  std::array<int, 4> semi_rigid_node{-1, -1, -1, -1};  ///< of each corner, in Frame::semi_rigid_nodes
+  Eigen::Matrix<double, 24, 24> stiffness;             ///< in the absolute freedoms of its corners
 };
 
 /// Node i of the building is node i of the frame, support i is support i; nodes of meshes and supports of panel edges
@@ -79,7 +79,7 @@ class EdgeMembers {
   explicit EdgeMembers(const Building& building);
   /// In order along the edge (0 to 3), from its first node.
   [[nodiscard]] const std::vector<MemberId>& of(PanelId panel, int edge) const {
-    return members_[static_cast<std::size_t>(4 * panel.index + edge)];
+    return members_[4 * static_cast<std::size_t>(panel.index) + static_cast<std::size_t>(edge)];
   }
 
  private:

@@ -16,7 +16,7 @@ struct Id {
   /// False for a default-made id. Whether the array is that long is not known here.
   [[nodiscard]] constexpr bool valid() const { return index >= 0; }
   /// By index.
-  constexpr auto operator<=>(const Id&) const = default;
+  constexpr auto operator<=>(const Id&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 using NodeId = Id<struct NodeTag>;

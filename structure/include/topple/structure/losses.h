@@ -31,8 +31,8 @@ struct LossState {
   std::vector<std::pair<NodeId, Vec6>> motion;  ///< per node, global; largest translation 1
   std::vector<MemberId> loose;                  ///< members that can move by themselves
   // What follows is there when it stands.
-  JointId worst;    ///< not valid when no joint that is left has a capacity
-  Utilisation use;  ///< of `worst`
+  JointId worst;            ///< not valid when no joint that is left has a capacity
+  Utilisation utilisation;  ///< of `worst`
   /// Only for a named loss: every node, every member and breakable joint that is left.
   std::vector<Vec6> displacements;
   std::vector<std::pair<MemberId, solver::Vec12>> end_forces;  ///< what the nodes do to each, member axes
@@ -42,7 +42,7 @@ struct LossState {
   /// No mechanism.
   [[nodiscard]] bool stands() const { return mechanism.empty(); }
   /// It stands, and no joint that is left is over capacity.
-  [[nodiscard]] bool survives() const { return stands() && use.value <= 1; }
+  [[nodiscard]] bool survives() const { return stands() && utilisation.value <= 1; }
 };
 
 /// One member's loss under all combinations.

@@ -49,7 +49,7 @@ struct InTime {
 /// A joint's largest utilisation in a motion.
 struct JointPeak {
   JointId joint;               ///< that is meant
-  Utilisation use;             ///< the largest over time
+  Utilisation utilisation;     ///< the largest over time
   Vec6 demand = Vec6::Zero();  ///< then
   double at = 0;               ///< s
   /// Of the demand in the governing sense: the change from before the loss to the peak, over the change to the static

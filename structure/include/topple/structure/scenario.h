@@ -12,7 +12,7 @@ namespace topple::structure {
 
 enum class BracingRule { buckling, classic, none };
 enum class MechanismRule { hinge, detach };
-/// Whether what stands follows losses and blows in time, or by static states and the factor of a sudden loss.
+/// Whether what stands follows losses and impacts in time, or by static states and the factor of a sudden loss.
 enum class StandingRule { statics, dynamics };
 
 /// When what stands fails. Keys of the scenario's `failure`.

@@ -132,8 +132,9 @@ struct FrameEnergy {
   double struck = 0;        ///< work of impulses on it
 };
 
-/// What stands, with its damage: a facade, the parts in structure/standing/ own the data. Every function that names a
-/// part throws std::out_of_range where the building has none such.
+/// What stands, with its damage. It is a facade: its many functions are a line or a check each, the parts in
+/// structure/standing/ own the data. A function that names a part throws std::out_of_range for one that the building
+/// does not have.
 class StandingFrame {
  public:
   /// Solves the undamaged building under the combination's loads. Throws UnstableModel, and InputError for a
@@ -253,8 +254,8 @@ class StandingFrame {
   /// One substep, under the contact loads of the moment. `after_substep` may call fracture().
   void move_on(const std::function<void()>& after_substep = {});
   /// What broke since it was last told, in order.
-  std::vector<JointBreak> take_breaks();
-  /// After the last substep. Returns what take_breaks() would.
+  std::vector<JointBreak> extract_breaks();
+  /// After the last substep. Returns what extract_breaks() would.
   std::vector<JointBreak> end_move();
   /// What the place is on stands and is not at rest.
   [[nodiscard]] bool moves(const ContactPlace& place) const;
@@ -263,7 +264,7 @@ class StandingFrame {
   /// Velocity of a node for a unit impulse along and about each global axis (1/kg, 1/(kg m), 1/(kg m2)), before
   /// anything has moved. Zero at rest.
   [[nodiscard]] Eigen::Matrix<double, 6, 6> mobility(NodeId node) const;
-  /// Something has left that take_detached() has not handed out.
+  /// Something has left that extract_detached() has not handed out.
   [[nodiscard]] bool has_detached() const;
   /// How what stands takes unit pushes at places on different parts, each along its direction, that are faster than its
   /// motion (the law of impact, simulation/impact/impact.h): the struck part gives way with its nodes held, its own
@@ -317,12 +318,12 @@ class StandingFrame {
 
   /// Joints whose moment or torsion came to its capacity, and that have turned since, as they did; each sense of a
   /// joint once. Handed out once.
-  std::vector<JointBreak> take_yielded();
+  std::vector<JointBreak> extract_yielded();
   /// What joints that hold and stand have turned by, in order of joint and sense; those that never yielded are left
   /// out.
   [[nodiscard]] std::vector<PlasticRotation> plastic_rotations() const;
   /// What has left since the last call, each connected part apart.
-  std::vector<Detached> take_detached();
+  std::vector<Detached> extract_detached();
 
   // Impact support. All answers are for the structure as it stands now.
   /// Response to a unit force at a place: how far the place gives way along it (compliance, m/N), the demand that it

@@ -1,5 +1,5 @@
 #pragma once
-// A drawn model bound to a building: closed triangle meshes that follow the parts they are bound to, and are cut where
+// A visual mesh bound to a building: closed triangle meshes that follow the parts they are bound to, and are cut where
 // those part from each other.
 //
 // Each place of a mesh belongs to the member or panel nearest to it (or to the one that its glTF node is bound to by

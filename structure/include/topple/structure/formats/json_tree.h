@@ -137,7 +137,7 @@ class JsonTree::Item {
   /// Braces within braces.
   Item(std::initializer_list<Item> items) : value_(items) {}
   /// The items of braces are constant; each is taken once.
-  [[nodiscard]] JsonTree take() const { return std::move(value_); }
+  [[nodiscard]] JsonTree extract() const { return std::move(value_); }
   /// Whether it is a list of two that begins with a text.
   [[nodiscard]] bool is_field() const;
 

@@ -157,7 +157,7 @@ class StudyJournal {
   void sync();
 
  private:
-  void take(Sample sample);
+  void keep(Sample sample);
 
   const StudyTask& task_;
   std::filesystem::path folder_;
