@@ -139,12 +139,14 @@ void BulletWorld::sweep_standing(const Mover& mover, const SweepRange& range, st
 
 void BulletWorld::sweep_movers(const std::vector<Mover>& movers, const SweepRange& range,
                                std::vector<Contact>& found) const {
-  each_moving_pair(movers, range.dt, range.least_speed, [&](const Mover& first, const Mover& second) {
+  const auto all = [](const Mover&, const Mover&) { return true; };
+  each_moving_pair(movers, range.dt, range.least_speed, all, [&](const Mover& first, const Mover& second) {
     sweep_pair(first, *second.body, second.motion, range.dt, found);
   });
 }
 
-std::vector<Contact> BulletWorld::sweep(double dt, Sweep what, double least_speed) {
+std::vector<Contact> BulletWorld::sweep(double dt, Sweep what, double least_speed,
+                                        std::optional<std::span<const BodyId>> among) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("sweep of " + std::to_string(dt) + " s; it must be above zero");
   release_separated(dt);
@@ -157,6 +159,14 @@ std::vector<Contact> BulletWorld::sweep(double dt, Sweep what, double least_spee
     for (const Mover& mover : awake) sweep_ground(mover, dt, least_speed, found);
     sweep_movers(awake, range, found);
   }
+  const auto asked = [&](BodyId id) {
+    return std::binary_search(among->begin(), among->end(), id, [](BodyId a, BodyId b) { return a.value < b.value; });
+  };
+  if (among)
+    std::erase_if(found, [&](const Contact& contact) {
+      return contact.other.kind != Touched::Kind::obstacle && !asked(contact.body) &&
+             !(contact.other.kind == Touched::Kind::body && asked(contact.other.body));
+    });
   for (Contact& contact : found) {
     put_lower_first(contact);
     contact.persistent = std::binary_search(touching_.begin(), touching_.end(), contact, before_by_parts);

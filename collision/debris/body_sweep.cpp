@@ -37,6 +37,7 @@ Box3 box_of(const Bounds& bounds) { return {from_bullet(bounds.low), from_bullet
 
 struct Mover {
   const DebrisBody* body = nullptr;
+  bool asked = true;  ///< all that it meets is asked for; of others, what meets one that is
   Motion motion;
   Placement end;
   std::vector<SweptPart> parts;  ///< all
@@ -114,24 +115,44 @@ void find_touches(const Mover& mover, const Met& met, const SweepRange& range, s
 /// Awake bodies against what stands, what sleeps, the ground and each other.
 class BodySweep {
  public:
-  BodySweep(const DebrisScene& scene, const IgnoredPairs& ignored) : scene_(scene), ignored_(ignored) {}
+  BodySweep(const DebrisScene& scene, const IgnoredPairs& ignored, const SweepRange& range);
   [[nodiscard]] std::vector<Mover> movers(double dt) const;
   void sweep_ground(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const;
   void sweep_standing(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const;
   void sweep_movers(const std::vector<Mover>& movers, const SweepRange& range, std::vector<Contact>& found) const;
 
  private:
+  [[nodiscard]] bool asked(BodyId id) const;
   void sweep_pair(const Mover& mover, const Met& other, const SweepRange& range, std::vector<Contact>& found) const;
 
   const DebrisScene& scene_;
   const IgnoredPairs& ignored_;
+  std::optional<std::span<const BodyId>> among_;
+  std::vector<const Collider*> asked_asleep_;  ///< parts of bodies that sleep and are asked for by name
 };
+
+BodySweep::BodySweep(const DebrisScene& scene, const IgnoredPairs& ignored, const SweepRange& range)
+    : scene_(scene), ignored_(ignored), among_(range.among) {
+  if (range.what == Sweep::obstacles || !among_ || scene.all_awake()) return;
+  for (const BodyId id : *among_) {
+    const DebrisBody& one = scene.body(id.value);
+    if (!one.asleep) continue;
+    for (const std::uint32_t index : one.colliders) asked_asleep_.push_back(&scene.pairs.collider(index));
+  }
+}
+
+bool BodySweep::asked(BodyId id) const {
+  return !among_ ||
+         std::binary_search(among_->begin(), among_->end(), id, [](BodyId a, BodyId b) { return a.value < b.value; });
+}
 
 std::vector<Mover> BodySweep::movers(double dt) const {
   std::vector<Mover> result;
   for (const BodyId id : scene_.order) {
     const DebrisBody& one = scene_.body(id.value);
-    if (!one.asleep) result.push_back(mover_of(one, motion_of(one, scene_.gravity, dt), dt));
+    if (one.asleep) continue;
+    result.push_back(mover_of(one, motion_of(one, scene_.gravity, dt), dt));
+    result.back().asked = asked(id);
   }
   return result;
 }
@@ -147,7 +168,7 @@ void BodySweep::sweep_pair(const Mover& mover, const Met& met, const SweepRange&
 }
 
 void BodySweep::sweep_ground(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const {
-  if (!scene_.ground.there || mover.whole.low.z() > scene_.ground.height) return;
+  if (!mover.asked || !scene_.ground.there || mover.whole.low.z() > scene_.ground.height) return;
   const double dt = range.dt;
   if (fastest_closing(*mover.body, mover.motion, scene_.ground.solid, {}, dt) < range.least_speed) return;
   for (const auto& [i, bounds] : mover.parts) {
@@ -159,15 +180,17 @@ void BodySweep::sweep_ground(const Mover& mover, const SweepRange& range, std::v
 }
 
 void BodySweep::sweep_standing(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const {
-  const auto [what, dt, least_speed] = range;
+  const auto [what, dt, least_speed, among] = range;
   const Box3 box = box_of(mover.whole);
   std::vector<const Collider*> near;  // in order of solids, and of their parts
-  const auto take = [&](std::uint32_t index) {
-    const Collider& one = scene_.pairs.collider(index);
+  const auto look_at = [&](const Collider& one) {
     if (one.fat.meets(box) && !DebrisScene::awake(*one.solid)) near.push_back(&one);
   };
+  const auto take = [&](std::uint32_t index) { look_at(scene_.pairs.collider(index)); };
   scene_.pairs.each_in(box, true, take);
-  if (what == Sweep::everything && !scene_.all_awake()) scene_.pairs.each_in(box, false, take);
+  if (what == Sweep::everything && mover.asked && !scene_.all_awake()) scene_.pairs.each_in(box, false, take);
+  if (!mover.asked)
+    for (const Collider* one : asked_asleep_) look_at(*one);
   std::sort(near.begin(), near.end(), [](const Collider* a, const Collider* b) { return a->order < b->order; });
   for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
     const Solid& other = *near[begin]->solid;
@@ -187,9 +210,11 @@ void BodySweep::sweep_standing(const Mover& mover, const SweepRange& range, std:
 
 void BodySweep::sweep_movers(const std::vector<Mover>& movers, const SweepRange& range,
                              std::vector<Contact>& found) const {
-  each_moving_pair(movers, range.dt, range.least_speed, [&](const Mover& first, const Mover& second) {
+  const auto wanted = [](const Mover& first, const Mover& second) { return first.asked || second.asked; };
+  const auto meet = [&](const Mover& first, const Mover& second) {
     sweep_pair(first, {*second.body, second.motion, second.parts}, range, found);
-  });
+  };
+  each_moving_pair(movers, range.dt, range.least_speed, wanted, meet);
 }
 
 }  // namespace
@@ -209,7 +234,7 @@ bool still_to_pass(const DebrisScene& scene, const DebrisBody& first, const Soli
 }
 
 std::vector<Contact> first_touches(const DebrisScene& scene, const IgnoredPairs& ignored, const SweepRange& range) {
-  const BodySweep sweep(scene, ignored);
+  const BodySweep sweep(scene, ignored, range);
   std::vector<Contact> found;
   const std::vector<Mover> awake = sweep.movers(range.dt);
   for (const Mover& mover : awake) sweep.sweep_standing(mover, range, found);

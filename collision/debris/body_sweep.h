@@ -1,5 +1,7 @@
 #pragma once
 // The sweep: first touches of awake bodies within a step, on the paths that they have now. It moves nothing.
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "debris/ignored_pairs.h"
@@ -16,6 +18,7 @@ namespace topple::collision {
 struct SweepRange {
   Sweep what;
   double dt, least_speed;
+  std::optional<std::span<const BodyId>> among = {};  ///< World::sweep()
 };
 [[nodiscard]] std::vector<Contact> first_touches(const DebrisScene& scene, const IgnoredPairs& ignored,
                                                  const SweepRange& range);

@@ -7,10 +7,15 @@
 
 #include "simulation/accounts/replay_hash.h"
 #include "simulation/call_checks.h"
+#include "simulation/impact/impact_settings.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
 
 namespace topple::structure {
+
+namespace {
+bool strikes(const collision::Contact& contact) { return contact.approach_speed >= impact_settings.least_speed; }
+}  // namespace
 
 void Simulation::step() {
   State& s = *state_;
@@ -25,9 +30,10 @@ void Simulation::step() {
       return s.scene.timer.stage(static_cast<std::size_t>(stage), work);
     };
     timed(Stage::load, [&] { s.tools.use(); });
-    const auto contacts = timed(Stage::sweep, [&] { return s.sweep_bodies(); });
+    const auto contacts = timed(Stage::sweep, [&] { return s.sweep_step(); });
     timed(Stage::load, [&] { s.load(); });
     timed(Stage::break_, [&] {
+      s.hosts.strike_all();
       s.strike(contacts);
       s.scene.sways() ? s.begin_motion() : s.break_generations();
     });
@@ -42,22 +48,38 @@ void Simulation::step() {
 
 Simulation::State::State(Building the_building, Scenario the_scenario, SimulationOptions the_options)
     : StageParts(std::move(the_building), std::move(the_scenario), std::move(the_options)) {
-  moving_parts = std::make_unique<MovingParts>(debris, hinges, sums, [this] { substep(); });
+  moving_parts = std::make_unique<MovingParts>(
+      debris, hinges, sums, MovingParts::Substep{[this] { substep(); }, [this](double dt) { strike_between(dt); }});
   if (scene.sways()) scene.frame->let_move(scene.scenario.step, scene.scenario.motion);
   panels.open();
 }
 
 Simulation::State::~State() = default;
 
-/// What is told of the impacts of a step is forgotten before the next one's contacts are found.
-std::vector<collision::Contact> Simulation::State::sweep_bodies() {
+/// What is told of impacts is forgotten before the next contacts are found.
+std::vector<collision::Contact> Simulation::State::sweep_bodies(double dt) {
   struck.clear();
   release_impulses.clear();
-  return sweep.contacts();
+  return sweep.contacts(dt);
+}
+
+std::vector<collision::Contact> Simulation::State::sweep_step() {
+  bodies.start_step();
+  const double dt = scene.scenario.step;
+  std::vector<collision::Contact> contacts = sweep_bodies(dt);
+  in_substeps =
+      scene.sways() && scene.world->steps_in_parts() &&
+      (scene.frame->in_motion() || std::any_of(contacts.begin(), contacts.end(), [](const collision::Contact& contact) {
+         return contact.other.kind == collision::Touched::Kind::obstacle && strikes(contact);
+       }));
+  if (in_substeps) {
+    const double first = dt / scene.frame->substeps();
+    std::erase_if(contacts, [&](const collision::Contact& contact) { return contact.time > first; });
+  }
+  return contacts;
 }
 
 void Simulation::State::strike(const std::vector<collision::Contact>& contacts) {
-  hosts.strike_all();
   standing_impacts.strike_all(contacts);
   body_impacts.strike_all(contacts);
 }
@@ -105,6 +127,22 @@ void Simulation::State::substep() {
   release.release();
 }
 
+/// What debris comes upon in the next substep, of `dt`, strikes at its start as at that of a step. Else contacts would
+/// press it into the frame within one substep, with forces that no part's own compliance lets through.
+void Simulation::State::strike_between(double dt) {
+  if (--substeps_left <= 0 || scene.world->awake_count() == 0 || !scene.world->steps_in_parts()) return;
+  std::vector<collision::Contact> contacts;
+  const auto move = static_cast<std::size_t>(Stage::move);
+  scene.timer.within(move, static_cast<std::size_t>(Stage::sweep), [&] { contacts = sweep_bodies(dt); });
+  if (std::none_of(contacts.begin(), contacts.end(), strikes)) return;
+  scene.timer.within(move, static_cast<std::size_t>(Stage::break_), [&] {
+    scene.frame->read_demands();
+    strike(contacts);
+    record(scene.frame->extract_breaks());
+    release.release();
+  });
+}
+
 void Simulation::State::end_motion() {
   if (!scene.frame->pending() && scene.step > 1) return;
   record(scene.frame->end_move());
@@ -118,8 +156,9 @@ void Simulation::State::end_motion() {
 void Simulation::State::move() {
   bodies.start_motion();
   const double dt = scene.scenario.step;
-  const bool together = scene.frame->in_motion();
+  const bool together = in_substeps || scene.frame->in_motion();
   if (scene.world->awake_count() == 0 && !together) return;
+  substeps_left = scene.frame->substeps();
   scene.timer.engine(
       [&] { together ? scene.world->step(dt, scene.frame->substeps(), *moving_parts) : scene.world->step(dt); });
   overlaps.read();

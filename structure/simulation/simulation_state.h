@@ -14,20 +14,25 @@ struct Simulation::State : StageParts {
   ~State();
 
   // Stages of a step.
-  /// What awake bodies will touch in this step.
-  [[nodiscard]] std::vector<collision::Contact> sweep_bodies();
+  /// What awake bodies will touch in this step; where it is taken in substeps, in the first of them.
+  [[nodiscard]] std::vector<collision::Contact> sweep_step();
+  [[nodiscard]] std::vector<collision::Contact> sweep_bodies(double dt);
   /// Resting contacts load the frame.
   void load();
   void strike(const std::vector<collision::Contact>& contacts);
   void break_generations();
   void begin_motion();
   void substep();
+  void strike_between(double dt);
   void end_motion();
   void move();
   void account();
   void record(const std::vector<JointBreak>& breaks);
 
   std::unique_ptr<MovingParts> moving_parts;
+  // Of the step that runs.
+  bool in_substeps = false;  ///< what stands moves, or is struck
+  int substeps_left = 0;
 };
 
 }  // namespace topple::structure

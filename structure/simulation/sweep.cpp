@@ -70,21 +70,18 @@ void Sweep::approach(BodyMotion& one, const collision::BodyState& state) {
   one.seen = {room, state.pose.position, travel, state.pose.orientation, turned_by, reach};
 }
 
-std::vector<collision::Contact> Sweep::contacts() {
+std::vector<collision::Contact> Sweep::contacts(double dt) {
   for (BodyMotion& one : debris_.bodies.motions()) {
     const collision::BodyState state = scene_.world->state({one.id});
-    one.step_start = state.pose.position;
     if (!state.asleep) approach(one, state);
   }
   if (scene_.world->awake_count() == 0) return {};
-  // Bodies are looked for where some can break against each other.
-  const bool any_composed =
-      std::any_of(debris_.bodies.composed().begin(), debris_.bodies.composed().end(), [&](std::int64_t id) {
-        return !debris_.bodies.motion(id).asleep || break_up_.may_fall_apart(collision::BodyId{id});
-      });
-  const collision::Sweep what = any_composed ? collision::Sweep::everything : collision::Sweep::obstacles;
-  return scene_.timer.engine(
-      [&] { return scene_.world->sweep(scene_.scenario.step, what, impact_settings.least_speed); });
+  // Against the ground and each other, where one can break.
+  std::vector<collision::BodyId> may_break;
+  for (const std::int64_t id : debris_.bodies.composed())
+    if (break_up_.may_fall_apart(collision::BodyId{id})) may_break.push_back({id});
+  const collision::Sweep what = may_break.empty() ? collision::Sweep::obstacles : collision::Sweep::everything;
+  return scene_.timer.engine([&] { return scene_.world->sweep(dt, what, impact_settings.least_speed, may_break); });
 }
 
 }  // namespace topple::structure

@@ -12,8 +12,8 @@ class Sweep {
   /// All must outlive it.
   Sweep(Scene& scene, Debris& debris, const BreakUp& break_up) : scene_(scene), debris_(debris), break_up_(break_up) {}
 
-  /// What awake bodies will touch before the step ends.
-  [[nodiscard]] std::vector<collision::Contact> contacts();
+  /// What awake bodies will touch within `dt`, s: a step, or a part of the one that runs.
+  [[nodiscard]] std::vector<collision::Contact> contacts(double dt);
 
  private:
   /// Of a body in this step: its way, and how far its turn takes a point that is as far from its centre as is asked.

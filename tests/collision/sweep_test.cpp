@@ -206,6 +206,50 @@ TEST_CASE("a sweep with a least speed leaves out bodies that close slowly, and n
   CHECK(std::any_of(quick.begin(), quick.end(), [&](const Contact& one) { return one.body == turns; }));
 }
 
+TEST_CASE("a sweep among some bodies leaves out what none of them has a part in, and nothing else") {
+  const auto world = world_with_ground();
+  world->add_obstacle(box_obstacle({0.1, 2, 2}, {-0.55, 0, 2}));
+  std::vector<BodyId> bodies;
+  const auto throw_down = [&](const Vec3& at, const Vec3& velocity) {
+    BodyDescription body = box_body({0.2, 0.2, 0.2}, 100, at);
+    body.velocity = velocity;
+    bodies.push_back(world->add_body(body));
+  };
+  throw_down({9, 0, 0.2}, {0, 0, 0});
+  for (int step = 0; step < 200 && !world->state(bodies[0]).asleep; ++step) world->step(kStep);
+  REQUIRE(world->state(bodies[0]).asleep);
+  throw_down({9, 0, 0.75}, {0, 0, -9});  // upon what sleeps
+  throw_down({0, 0, 2}, {8, 0, 0});      // into the next
+  throw_down({0.45, 0, 2}, {0, 0, 0});   // which does nothing
+  throw_down({5, 0, 0.25}, {0, 0, -9});  // upon the ground
+  throw_down({5, 5, 0.25}, {0, 0, -9});  // the same
+  throw_down({-0.2, 1, 2}, {-9, 0, 0});  // against the wall
+  throw_down({8, 8, 2}, {0, 0, 0});      // which does nothing
+  throw_down({8.45, 8, 2}, {-9, 0, 0});  // into the last
+  const std::vector<Contact> all = world->sweep(kStep);
+  const auto has = [](const std::vector<BodyId>& some, BodyId id) {
+    return std::find(some.begin(), some.end(), id) != some.end();
+  };
+  std::size_t left_out = 0;
+  for (std::size_t subset = 0; subset < 1u << bodies.size(); ++subset) {
+    std::vector<BodyId> among;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if ((subset >> i & 1) != 0) among.push_back(bodies[i]);
+    const std::vector<Contact> found = world->sweep(kStep, Sweep::everything, 0, among);
+    std::vector<Contact> expected;
+    for (const Contact& contact : all)
+      if (contact.other.kind == Touched::Kind::obstacle || has(among, contact.body) ||
+          (contact.other.kind == Touched::Kind::body && has(among, contact.other.body)))
+        expected.push_back(contact);
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+      CHECK((found[i].body == expected[i].body && found[i].time == expected[i].time &&
+             found[i].other.kind == expected[i].other.kind && found[i].other.body == expected[i].other.body));
+    left_out = std::max(left_out, all.size() - found.size());
+  }
+  CHECK(left_out >= 3);
+}
+
 TEST_CASE("thousands of obstacles come and go, and are found by box and by ray") {
   const auto world = make_bullet_world();
   std::vector<ObstacleId> ids;

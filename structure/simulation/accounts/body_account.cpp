@@ -2,6 +2,10 @@
 
 namespace topple::structure {
 
+void BodyAccount::start_step() {
+  for (BodyMotion& one : debris_.bodies.motions()) one.step_start = scene_.world->state({one.id}).pose.position;
+}
+
 void BodyAccount::start_motion() {
   for (BodyMotion& one : debris_.bodies.motions()) one.before = scene_.world->state({one.id});
 }

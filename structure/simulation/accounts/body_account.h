@@ -15,6 +15,8 @@ class BodyAccount {
   /// All must outlive it.
   BodyAccount(const Scene& scene, RunningSums& sums, Debris& debris) : scene_(scene), sums_(sums), debris_(debris) {}
 
+  /// From where the weight of each body works in this step.
+  void start_step();
   /// The impacts of the step are over, and the motion begins.
   void start_motion();
   /// The collision world measures what each contact took from the bodies, in the same reading of velocities.

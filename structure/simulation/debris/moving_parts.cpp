@@ -65,7 +65,7 @@ void MovingParts::advance(double dt, std::span<const collision::Contact> contact
   const std::vector<collision::HingePull> pulled = hinges_.act(pulls, dt);
   const std::vector<PartingContact> may_part = this->may_part(contacts);
   const std::uint64_t changes = frame.counters().segmentations;
-  substep_();
+  substep_.advance();
   const bool held_anew = frame.counters().segmentations != changes;
   sums_.ledger.lost_in_contacts += limit_parting(debris_, may_part, debris_.scene.scenario.debris.restitution);
   std::map<std::int64_t, Known> after;
@@ -100,6 +100,7 @@ void MovingParts::advance(double dt, std::span<const collision::Contact> contact
     pass_on(one.impulse.dot(before.moved + then.moved) / 2 + one.moment.dot(before.turned + then.turned) / 2);
   }
   known_ = std::move(after);
+  substep_.strike(dt);
 }
 
 }  // namespace topple::structure

@@ -13,8 +13,14 @@ namespace topple::structure {
 
 class MovingParts final : public collision::MovingStructure {
  public:
-  /// All must outlive it. `substep` takes one of the frame, with all that comes of it.
-  MovingParts(Debris& debris, Hinges& hinges, RunningSums& sums, std::function<void()> substep)
+  /// Of the frame, with all that comes of it.
+  struct Substep {
+    std::function<void()> advance;
+    /// After it: what debris comes upon in the next one, of this length in s.
+    std::function<void(double dt)> strike;
+  };
+  /// All must outlive it.
+  MovingParts(Debris& debris, Hinges& hinges, RunningSums& sums, Substep substep)
       : debris_(debris), hinges_(hinges), sums_(sums), substep_(std::move(substep)) {}
 
   [[nodiscard]] std::optional<collision::ObstacleMotion> motion(collision::ObstacleId obstacle) override;
@@ -36,7 +42,7 @@ class MovingParts final : public collision::MovingStructure {
   Debris& debris_;
   Hinges& hinges_;
   RunningSums& sums_;
-  std::function<void()> substep_;
+  Substep substep_;
 };
 
 }  // namespace topple::structure

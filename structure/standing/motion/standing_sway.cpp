@@ -69,6 +69,11 @@ void StandingFrame::move_on(const std::function<void()>& after_substep) { state_
 
 std::vector<JointBreak> StandingFrame::extract_breaks() { return state_->breaks.extract(); }
 
+void StandingFrame::read_demands() {
+  if (!state_->motion) return;
+  for (const int c : state_->motion->moving()) state_->read_motion(c);
+}
+
 std::vector<JointBreak> StandingFrame::end_move() {
   state_->end_motion();
   return extract_breaks();

@@ -144,6 +144,40 @@ TEST_CASE("What breaks off leaves with its momentum, the ledger balances, and th
   CHECK(hashes[0] == hashes[1]);
 }
 
+TEST_CASE("A joint that loses its strength while it moves breaks, whatever is left of it") {
+  FrameBuilder frame = grid_building(3, 2, 2, 5, 3, same_capacity(1e7), same_capacity(1e7));
+  frame.self_weight(7850);
+  const auto member = [&](const std::string& name) {
+    for (std::size_t m = 0; m < frame.building.members.size(); ++m)
+      if (frame.building.members[m].name == name) return MemberId(m);
+    return MemberId();
+  };
+  const MemberId post = member("P-1-1-1"), beam = member("BX-2-1-1");
+  REQUIRE(post.valid());
+  REQUIRE(beam.valid());
+  for (const double strength : {0.0, 1e-320, 1e-305}) {
+    Scenario scenario;
+    scenario.combination = CombinationId(0u);
+    scenario.standing = StandingRule::dynamics;
+    scenario.duration = 0.5;
+    scenario.failure.bracing = BracingRule::none;
+    RemoveTool remove;
+    remove.members = {post};
+    WeakenTool weaken;
+    weaken.joints = {frame.building.joint(beam, 0)};
+    weaken.strength = strength;
+    scenario.events = {{0.1, remove}, {0.2, weaken}};
+    Simulation simulation(frame.building, scenario);
+    run(simulation);
+    const auto broken = of_kind(simulation, SimulationEvent::Kind::joint_broke);
+    INFO("strength " << strength);
+    REQUIRE(broken.size() == 1);
+    CHECK(broken[0].joint.joint == weaken.joints[0]);
+    CHECK(broken[0].time == Approx(0.2));
+    CHECK(std::abs(simulation.ledger().residual()) < 1e-6);
+  }
+}
+
 TEST_CASE("A house that is hit in motion makes no energy, and comes to rest") {
   auto [building, scenario] = read_scenario(find_scenario("house_hit"));
   scenario.standing = StandingRule::dynamics;
@@ -188,8 +222,15 @@ TEST_CASE("Nothing leaves what it has struck in motion faster than it came") {
       const SimulationEvent& event = simulation.events()[heard];
       if (event.kind != SimulationEvent::Kind::impact) continue;
       ++impacts;
-      // What is struck swings, and may push back by as much more; or it comes after a body that goes before it.
-      CHECK(event.speed_out >= -1.25 * std::abs(event.speed_in));
+      double fastest = std::abs(event.speed_in);
+      for (std::size_t other = 0; other < heard; ++other) {
+        const SimulationEvent& before = simulation.events()[other];
+        if (before.kind == event.kind && before.step == event.step && before.name == event.name)
+          fastest = std::max(fastest, std::abs(before.speed_in));
+      }
+      // What is struck swings, by this body or by another one of the same step, and may push back by as much more; or
+      // it comes after a body that goes before it.
+      CHECK(event.speed_out >= -1.25 * fastest);
     }
   }
   CHECK(impacts > 4);

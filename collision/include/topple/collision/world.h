@@ -280,15 +280,18 @@ class World {
   /// the others were not there, in order of time, then of body id. One for each pair of parts, the body with the lower
   /// id first. Those that were there in the last step are flagged persistent. Nothing moves. Sweep::obstacles leaves
   /// out bodies and ground, and with them most of the cost when debris lies in a pile. So does `least_speed` (m/s):
-  /// pairs of bodies, and bodies and ground, no points of which can close faster within dt may be left out.
-  [[nodiscard]] virtual std::vector<Contact> sweep(double dt, Sweep what = Sweep::everything,
-                                                   double least_speed = 0) = 0;
+  /// pairs of bodies, and bodies and ground, no points of which can close faster within dt may be left out; and
+  /// `among`: those of which none is one of these, by rising id, are left out (none given: all are swept).
+  [[nodiscard]] virtual std::vector<Contact> sweep(double dt, Sweep what = Sweep::everything, double least_speed = 0,
+                                                   std::optional<std::span<const BodyId>> among = {}) = 0;
   /// Integrates awake bodies by dt > 0 (one internal step, semi-implicit Euler; rotation keeps angular momentum).
   virtual void step(double dt) = 0;
   /// The same in `parts` equal parts, after each of which the structure moves on: obstacles that move touch bodies with
   /// their velocity, give way as bodies do, and are where the structure has them. An engine that cannot do this takes
   /// one step past obstacles that stand still, and hands on its mean forces.
   virtual void step(double dt, int parts, MovingStructure& structure);
+  /// It can: between two parts bodies are where they are by then, and sweep() looks at the next part.
+  [[nodiscard]] virtual bool steps_in_parts() const { return false; }
   /// Contacts of awake bodies in the last step, one for each pair of parts, in order of ids and tags. What a sleeping
   /// body pressed with when it fell asleep, it presses with still.
   [[nodiscard]] virtual std::span<const Contact> contacts() const = 0;

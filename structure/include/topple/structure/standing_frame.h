@@ -255,6 +255,9 @@ class StandingFrame {
   void move_on(const std::function<void()>& after_substep = {});
   /// What broke since it was last told, in order.
   std::vector<JointBreak> extract_breaks();
+  /// Between two substeps: what joints of what moves bear now. Without it demand() and utilisation() tell what they
+  /// bore at the end of the last step.
+  void read_demands();
   /// After the last substep. Returns what extract_breaks() would.
   std::vector<JointBreak> end_move();
   /// What the place is on stands and is not at rest.
