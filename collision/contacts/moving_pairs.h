@@ -17,8 +17,8 @@ inline double fastest_closing(const Solid& one, const Motion& motion, const Soli
 }
 
 /// Calls meet(first, second) with each pair of movers whose bounds (`whole`) meet, in order of their lower ends along
-/// x; `first` is the body with the lower id. A pair that closes more slowly than `least_speed` within dt is left out, and
-/// one that is not wanted(one, other), in either order.
+/// x; `first` is the body with the lower id. A pair that closes more slowly than `least_speed` within dt is left out,
+/// and one that is not wanted(one, other), in either order.
 template <class Mover, class Wanted, class Meet>
 void each_moving_pair(const std::vector<Mover>& movers, double dt, double least_speed, const Wanted& wanted,
                       const Meet& meet) {
