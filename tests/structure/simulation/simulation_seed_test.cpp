@@ -70,7 +70,9 @@ TEST_CASE("a hit on the corner post brings down what it carried, the same in eve
     CHECK(first.members_down >= 6);
     // In motion 65 to 140 of 306 in 72 runs whose shot was moved by up to 0.1 m.
     CHECK(first.members_down < (at_rest ? 40 : 160));
-    CHECK(first.standing_segments == 1);
+    // In motion a post may be left to stand by itself, in some runs and not in others.
+    CHECK(first.standing_segments >= 1);
+    CHECK(first.standing_segments <= (at_rest ? 1 : 4));
     run_until(simulation.scenario().duration);
     hash = simulation.hash();
     CHECK(collapse_counts(simulation).members_down > first.members_down);  // slabs of 26 t sweep the posts beside them
