@@ -27,7 +27,7 @@ def test_a_ball_brings_something_down(tmp_path):
     assert "joint_broke" in said
     standing, members = map(int, re.search(r"(\d+) of (\d+) members stand", said).groups())
     assert standing < members
-    assert abs(float(re.search(r"out by (-?[\d.]+) %", said)[1])) < 1
+    assert abs(float(re.search(r"out of balance by (-?[\d.]+) %", said)[1])) < 1
     assert (tmp_path / "fallen.png").stat().st_size > 10000
 
 
