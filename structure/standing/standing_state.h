@@ -24,6 +24,7 @@ struct StandingFrame::State : StructuralState {
   void break_edges_over(int component);
   void follow_breaks();
   void leave_small_displacements(int component);
+  void let_mechanisms_go(int component);
   void read_motion(int component);
   void check_rest(int component);
   [[nodiscard]] std::map<int, std::vector<Eigen::Index>> contacts_by_component(const HeldResponse& pushed) const;

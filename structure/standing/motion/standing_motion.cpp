@@ -331,6 +331,8 @@ void StandingMotion::update_damping(int c) {
   if (const solver::RayleighDamping* const anew = damping_.update(c)) moving_.at(c)->frame->set_damping(*anew);
 }
 
+double StandingMotion::last_turn(int c) const { return moving_.at(c)->turned; }
+
 void StandingMotion::damp_by_mass(int c, double turn) {
   Moving& moving = *moving_.at(c);
   const bool falls = turn > settings_.falling_turn && turn > moving.turned;

@@ -99,6 +99,8 @@ class StandingMotion {
   /// Mass damps nothing while a component whose chords have turned by MotionSettings::falling_turn turns further: it
   /// would brake what falls. `turn`: largest_turn() now, once a step.
   void damp_by_mass(int component, double turn);
+  /// What damp_by_mass() was told last, 0 before.
+  [[nodiscard]] double last_turn(int component) const;
   /// Its statics were solved: where joints have broken since its damping was found, but none since the last look for
   /// rest, it is found anew, as it stands.
   void update_damping(int component);

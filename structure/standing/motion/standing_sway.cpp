@@ -113,13 +113,24 @@ FrameEnergy StandingFrame::energy() const {
   return energy;
 }
 
+namespace {
+bool left_small_displacements(double turn) { return turn > motion_settings.largest_turn; }
+}  // namespace
+
 void StandingFrame::State::move_on(const std::function<void()>& after_substep) {
+  const std::uint64_t searches = parts.segments.searches();
   if (loads.changed()) follow_breaks();
   for (const int c : motion->moving()) sway(c);
   if (after_substep) {
     after_substep();
     follow_breaks();
   }
+  // What it could not leave by before it cannot leave by now, unless something broke.
+  for (const int c : motion->moving())
+    if (motion->moves(c) &&
+        (parts.segments.searches() != searches || !left_small_displacements(motion->last_turn(c))) &&
+        left_small_displacements(motion->largest_turn(c)))
+      let_mechanisms_go(c);
   breaks.next_generation();
 }
 
@@ -208,12 +219,16 @@ void StandingFrame::State::break_edges_over(int c) {
   for (const JointId joint : over) break_in_motion(joint, joints.demand(joint), 0);
 }
 
-/// A part that has turned too far for small displacements goes over to the collision world, with its motion, where it
-/// can move without strain; a part that cannot stays.
+/// Once a step; when something leaves them within a substep it is seen to there.
 void StandingFrame::State::leave_small_displacements(int c) {
   const double turn = motion->largest_turn(c);
   motion->damp_by_mass(c, turn);
-  if (!(turn > motion_settings.largest_turn)) return;
+  if (left_small_displacements(turn)) let_mechanisms_go(c);
+}
+
+/// A part that has turned too far for small displacements goes over to the collision world, with its motion, where it
+/// can move without strain; a part that cannot stays.
+void StandingFrame::State::let_mechanisms_go(int c) {
   while (motion->moves(c)) {
     const std::optional<FrameMechanism> mechanism = statics.solve(c);
     if (!mechanism) return;
