@@ -219,7 +219,7 @@ void StandingFrame::State::break_edges_over(int c) {
   for (const JointId joint : over) break_in_motion(joint, joints.demand(joint), 0);
 }
 
-/// Once a step; when something leaves them within a substep it is seen to there.
+/// At the end of a step. What comes to it, or loses a joint, within a substep leaves in that (move_on()).
 void StandingFrame::State::leave_small_displacements(int c) {
   const double turn = motion->largest_turn(c);
   motion->damp_by_mass(c, turn);
