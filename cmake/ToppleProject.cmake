@@ -33,6 +33,10 @@ if(TOPPLE_SANITIZE)
   add_link_options(-fsanitize=${TOPPLE_SANITIZE})
 endif()
 
+# How libraries write the state of a running computation (solver/archive): a header alone, beside all layers.
+add_library(topple_archive INTERFACE)
+target_include_directories(topple_archive SYSTEM INTERFACE "${PROJECT_SOURCE_DIR}/solver/archive")
+
 # topple_library(NAME [PUBLIC_LINK ...] [PRIVATE_LINK ...])
 # The folder's .cpp files (and those of its sub-folders) become topple_NAME, alias topple::NAME. Public headers lie in
 # include/topple/NAME and are all that other targets see; private ones lie beside their .cpp.
@@ -49,7 +53,7 @@ function(topple_library name)
   target_compile_features(topple_${name} PUBLIC cxx_std_20)
   target_link_libraries(topple_${name}
     PUBLIC Eigen3::Eigen ${ARG_PUBLIC_LINK}
-    PRIVATE $<BUILD_INTERFACE:topple_options> ${ARG_PRIVATE_LINK})
+    PRIVATE $<BUILD_INTERFACE:topple_options> $<BUILD_INTERFACE:topple_archive> ${ARG_PRIVATE_LINK})
   install(TARGETS topple_${name} EXPORT topple ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
   install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)
 endfunction()
