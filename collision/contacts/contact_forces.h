@@ -15,6 +15,11 @@ struct SolidPair {
   std::int64_t other = -1;
   auto operator<=>(const SolidPair&) const = default;
 };
+template <class Archive>
+void serialize(Archive& archive, SolidPair& of) {
+  auto& [body, kind, other] = of;
+  archive(body, kind, other);
+}
 
 /// Force in N and its moment about the origin in N m, global axes.
 struct Wrench {

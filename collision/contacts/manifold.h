@@ -12,6 +12,11 @@ struct Placement {
   Mat3 turn = Mat3::Identity();
   [[nodiscard]] Vec3 operator*(const Vec3& local) const { return position + turn * local; }
 };
+template <class Archive>
+void serialize(Archive& archive, Placement& of) {
+  auto& [position, turn] = of;
+  archive(position, turn);
+}
 
 struct ManifoldPoint {
   Vec3 on_first = Vec3::Zero(), on_second = Vec3::Zero();  ///< the two points that meet, each in its solid's frame
@@ -19,6 +24,11 @@ struct ManifoldPoint {
   double impulse = 0;  ///< normal force of the last sub-step, to begin the next with, N
   double force = 0;    ///< mean normal force of the last step, N
 };
+template <class Archive>
+void serialize(Archive& archive, ManifoldPoint& of) {
+  auto& [on_first, on_second, separation, impulse, force] = of;
+  archive(on_first, on_second, separation, impulse, force);
+}
 
 struct Manifold {
   static constexpr int most = 4;
@@ -32,5 +42,11 @@ struct Manifold {
   Vec3 friction_force = Vec3::Zero();  ///< mean of the last step, N
   double twist_force = 0;              ///< N m
 };
+template <class Archive>
+void serialize(Archive& archive, Manifold& of) {
+  auto& [count, points, normal, normal_on_first, local_normal, friction, twist, friction_force, twist_force] = of;
+  archive(count, normal, normal_on_first, local_normal, friction, twist, friction_force, twist_force);
+  for (int i = 0; i < count; ++i) archive(points[static_cast<std::size_t>(i)]);  // the others are room
+}
 
 }  // namespace topple::collision

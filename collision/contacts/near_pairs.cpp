@@ -16,16 +16,37 @@ NearPairs::~NearPairs() {
   standing_.clear();
 }
 
-void NearPairs::copy(const NearPairs& of, const std::function<Solid*(const Solid&)>& own) {
+void NearPairs::insert_leaf(std::uint32_t index) {
+  Collider& one = colliders_[index];
+  one.leaf = (one.stands ? standing_ : moving_).insert(volume(one.fat), nullptr);
+  one.leaf->dataAsInt = static_cast<int>(index);
+}
+
+/// All pairs, as they lie.
+void NearPairs::number_pairs() {
+  free_pairs_.clear();
+  order_.resize(pairs_.size());
+  known_.clear();
+  for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+    order_[i] = i;
+    const std::uint32_t first = pairs_[i].first, second = pairs_[i].second;
+    known_.insert(key(first, second));
+    PairEnds& ends = ends_[i];
+    ends.first = first;
+    ends.second = second;
+    ends.first_order = colliders_[first].order;
+    ends.second_order = colliders_[second].order;
+  }
+}
+
+void NearPairs::copy(const NearPairs& of, const FindSolid& own) {
   moving_.clear();
   standing_.clear();
   colliders_ = of.colliders_;
-  for (std::size_t i = 0; i < colliders_.size(); ++i) {
+  for (std::uint32_t i = 0; i < colliders_.size(); ++i) {
     Collider& one = colliders_[i];
-    if (one.solid) one.solid = own(*one.solid);
-    if (!one.leaf) continue;
-    one.leaf = (one.stands ? standing_ : moving_).insert(volume(one.fat), nullptr);
-    one.leaf->dataAsInt = static_cast<int>(i);
+    if (one.solid) one.solid = own(one.solid->kind, one.solid->id);
+    if (one.leaf) insert_leaf(i);
   }
   free_colliders_ = of.free_colliders_;
   moved_ = of.moved_;
@@ -69,8 +90,7 @@ std::uint32_t NearPairs::add(Solid* solid, int part, std::uint64_t order, const 
   made.fat = made.tight = fat;
   made.stands = solid->kind != Touched::Kind::body;
   made.moved = true;
-  made.leaf = (made.stands ? standing_ : moving_).insert(volume(fat), nullptr);
-  made.leaf->dataAsInt = static_cast<int>(index);
+  insert_leaf(index);
   moved_.push_back(index);
   return index;
 }

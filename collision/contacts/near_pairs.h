@@ -23,6 +23,11 @@ struct Box3 {
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
   }
 };
+template <class Archive>
+void serialize(Archive& archive, Box3& of) {
+  auto& [low, high] = of;
+  archive(low, high);
+}
 
 /// One convex part in the world.
 struct Collider {
@@ -36,6 +41,12 @@ struct Collider {
   btDbvtNode* leaf = nullptr;
   bool stands = false, moved = false;
 };
+/// All but what points at others: NearPairs names the solid.
+template <class Archive>
+void serialize(Archive& archive, Collider& of) {
+  auto& [solid, part, order, gone, way, moves, fat, tight, leaf, stands, moved] = of;
+  archive(part, order, gone, way, moves, fat, tight, stands, moved);
+}
 
 /// What is asked of every pair in every step, apart from what few are asked for.
 struct PairEnds {
@@ -45,6 +56,12 @@ struct PairEnds {
   bool touches = false;    ///< there are contacts
   bool rests = false;      ///< it has borne something that sleeps
 };
+/// What is not told by the pair and its colliders.
+template <class Archive>
+void serialize(Archive& archive, PairEnds& of) {
+  auto& [first, second, first_order, second_order, free_until, touches, rests] = of;
+  archive(free_until, touches, rests);
+}
 
 /// Turns of a loop by which a pair is asked for before it is needed: pairs of neighbours are far from each other in
 /// memory.
@@ -72,6 +89,13 @@ struct alignas(64) NearPair {
   bool persistent = false;    ///< it touched in the step before the last
   bool touches = false;       ///< it pushed in the last step, or lay close
 };
+template <class Archive>
+void serialize(Archive& archive, NearPair& of) {
+  auto& [first, second, manifold, axis, turn, shift, clear, margin, rest_force, pressed, sought, told_in, persistent,
+         touches] = of;
+  archive(first, second, manifold, axis, turn, shift, clear, margin, rest_force, pressed, sought, told_in, persistent,
+          touches);
+}
 
 class NearPairs {
  public:
@@ -82,8 +106,15 @@ class NearPairs {
   NearPairs(const NearPairs&) = delete;
   NearPairs& operator=(const NearPairs&) = delete;
 
+  /// Gives the solid of a world by its kind and number.
+  using FindSolid = std::function<Solid*(Touched::Kind kind, std::int64_t id)>;
   /// All that `of` holds, of solids that `own` gives for its own.
-  void copy(const NearPairs& of, const std::function<Solid*(const Solid&)>& own);
+  void copy(const NearPairs& of, const FindSolid& own);
+  /// The same by way of an archive. Pairs are written in their order, and numbered by it when they are read.
+  template <class Archive>
+  void save(Archive& archive) const;
+  template <class Archive>
+  void load(Archive& archive, const FindSolid& own);
   void set_ground(Solid* solid, double height);
   std::uint32_t add(Solid* solid, int part, std::uint64_t order, const Box3& fat);
   void remove(std::uint32_t collider);
@@ -118,6 +149,8 @@ class NearPairs {
   void each_in(const Box3& box, bool standing, const Call& call) const;
 
  private:
+  void insert_leaf(std::uint32_t collider);
+  void number_pairs();
   void add_pair(std::uint32_t a, std::uint32_t b);
   void seek_for(std::uint32_t collider);
   [[nodiscard]] bool near(const PairEnds& pair) const;
@@ -135,6 +168,42 @@ class NearPairs {
   double ground_height_ = 0;
   bool stale_ = false;  ///< a collider has gone
 };
+
+template <class Archive>
+void NearPairs::save(Archive& archive) const {
+  // Trees are built of the colliders; what is known is what is in order; `made` is room.
+  const auto& [moving, standing, colliders, free_colliders, moved, pairs, ends, free_pairs, order, made, known,
+               ground_height, stale] = *this;
+  archive(std::uint64_t{colliders.size()}, std::uint64_t{order.size()}, free_colliders, moved, ground_height, stale);
+  for (const Collider& one : colliders) {
+    archive(one, one.solid != nullptr);
+    if (one.solid) archive(one.solid->kind, one.solid->id);
+  }
+  for (const std::uint32_t index : order) archive(pairs[index], ends[index]);
+}
+
+template <class Archive>
+void NearPairs::load(Archive& archive, const FindSolid& own) {
+  std::uint64_t collider_count = 0, pair_count = 0;
+  archive(collider_count, pair_count, free_colliders_, moved_, ground_height_, stale_);
+  moving_.clear();
+  standing_.clear();
+  colliders_.assign(collider_count, {});
+  for (std::uint32_t i = 0; i < collider_count; ++i) {
+    bool has_solid = false;
+    archive(colliders_[i], has_solid);
+    if (!has_solid) continue;
+    Touched::Kind kind{};
+    std::int64_t id = -1;
+    archive(kind, id);
+    colliders_[i].solid = own(kind, id);
+    if (i != ground) insert_leaf(i);
+  }
+  pairs_.assign(pair_count, {});
+  ends_.assign(pair_count, {});
+  for (std::size_t i = 0; i < pair_count; ++i) archive(pairs_[i], ends_[i]);
+  number_pairs();
+}
 
 template <class Call>
 void NearPairs::each_in(const Box3& box, bool standing, const Call& call) const {

@@ -15,6 +15,11 @@ struct SeparatingAxis {
   int first = 0, second = 0;  ///< face, or edge of each
   double gap = 0;             ///< along it when it was last measured, m; negative inside
 };
+template <class Archive>
+void serialize(Archive& archive, SeparatingAxis& of) {
+  auto& [kind, first, second, gap] = of;
+  archive(kind, first, second, gap);
+}
 
 /// Fills points (separation below `margin`, the deepest always among them) and normal; none when they are farther
 /// apart. Impulses are not touched.

@@ -30,6 +30,11 @@ class ContactReport {
   [[nodiscard]] const std::vector<Contact>& all() const { return contacts_; }
   /// Of the same, in a world that is a copy.
   void copy(const ContactReport& of) { contacts_ = of.contacts_; }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [scene, solved, region, contacts] = *this;
+    archive(contacts);
+  }
 
  private:
   [[nodiscard]] bool touches(const SolverContact& solved) const;

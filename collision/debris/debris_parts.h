@@ -8,11 +8,12 @@
 #include "shapes/touching_solid.h"
 #include "solver/cable_row.h"
 #include "solver/hinge_rows.h"
+#include "topple/collision/world_archive.h"
 
 namespace topple::collision {
 
-/// A body turns in its principal axes inside (its frame), and is seen in the caller's.
-struct DebrisBody : TouchingSolid {
+/// What a body has beside its shape and place.
+struct DebrisBodyData {
   double mass = 0, friction = 0, restitution = 0;
   double ball_radius = 0;  ///< of a body that is one ball; 0: any other
   Vec3 moments = Vec3::Zero(), inverse_root_moments = Vec3::Zero();
@@ -38,8 +39,29 @@ struct DebrisBody : TouchingSolid {
   std::vector<std::uint32_t> colliders;  ///< by part
   std::set<std::int64_t> hinges, cables;
 };
+/// Between steps: what a step alone knows is left out, as it sets all that before it reads it.
+template <class Archive>
+void archive_members(Archive& archive, DebrisBodyData& of) {
+  auto& [mass, friction, restitution, ball_radius, moments, inverse_root_moments, turn, velocity, spin, asleep,
+         wakes_with, wakes_spinning, slow_for, position_then, turn_then, load, substep_rate, retry_rest, rest_wait,
+         ignored, solver, island, velocity_before, spin_before, energy_before, pushed, accounted, acceleration, swung,
+         colliders, hinges, cables] = of;
+  archive(mass, friction, restitution, ball_radius, moments, inverse_root_moments, turn, velocity, spin, asleep,
+          wakes_with, wakes_spinning, slow_for, position_then, turn_then, load, substep_rate, retry_rest, rest_wait,
+          ignored, acceleration, colliders, hinges, cables);
+}
 
-struct DebrisObstacle : TouchingSolid {
+/// A body turns in its principal axes inside (its frame), and is seen in the caller's.
+struct DebrisBody : TouchingSolid, DebrisBodyData {
+  template <class Archive>
+  void serialize(Archive& archive) {
+    TouchingSolid::serialize(archive);
+    archive_members(archive, *this);
+  }
+};
+
+/// What an obstacle has beside its shape and place.
+struct DebrisObstacleData {
   Pose pose;
   double friction = 0, restitution = 0;
   std::vector<std::uint32_t> colliders;
@@ -54,7 +76,22 @@ struct DebrisObstacle : TouchingSolid {
   int known_for = 0;     ///< parts of a step, at most three
   int solver = -1;       ///< its number in the step's solver; -1: not in it yet
   int island = -1;
+};
+/// As a body's.
+template <class Archive>
+void archive_members(Archive& archive, DebrisObstacleData& of) {
+  auto& [pose, friction, restitution, colliders, moves, motion, impulse, angular_impulse, force, moment, gives_way,
+         alike, lasting, known_for, solver, island] = of;
+  archive(pose, friction, restitution, colliders, moves, motion, impulse, angular_impulse, force, moment, gives_way,
+          alike, lasting, known_for);
+}
 
+struct DebrisObstacle : TouchingSolid, DebrisObstacleData {
+  template <class Archive>
+  void serialize(Archive& archive) {
+    TouchingSolid::serialize(archive);
+    archive_members(archive, *this);
+  }
   /// m/s: no point of it is faster.
   [[nodiscard]] double speed() const {
     return moves ? motion.velocity.norm() + motion.angular_velocity.norm() * reach : 0;
@@ -80,12 +117,24 @@ struct DebrisHinge {
     work_lost = 0;
   }
 };
+template <class Archive>
+void serialize(Archive& archive, DebrisHinge& of) {
+  auto& [rows, body, other, holder, point_on_holder, axes_on_holder, impulse, angular_impulse, pulled, force,
+         work_lost] = of;
+  archive(rows, body, other, holder, point_on_holder, axes_on_holder, impulse, angular_impulse, pulled, force,
+          work_lost);
+}
 
 struct DebrisCable {
   CableRow row;
   std::int64_t body = -1;
   CablePull pull;
 };
+template <class Archive>
+void serialize(Archive& archive, DebrisCable& of) {
+  auto& [row, body, pull] = of;
+  archive(row, body, pull);
+}
 
 /// The obstacle of a pair, if it moves; else null.
 [[nodiscard]] const DebrisObstacle* moving_obstacle(const NearPairs& pairs, const PairEnds& ends);

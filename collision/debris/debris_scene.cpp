@@ -27,10 +27,25 @@ DebrisScene::DebrisScene(const DebrisScene& of)
   copy_each(of.obstacles, obstacles);
   copy_each(of.hinges, hinges);
   copy_each(of.cables, cables);
-  pairs.copy(of.pairs, [&](const Solid& solid) -> Solid* {
-    if (solid.kind == Touched::Kind::body) return &body(solid.id);
-    return solid.kind == Touched::Kind::obstacle ? static_cast<Solid*>(&obstacle(solid.id)) : &ground.solid;
-  });
+  pairs.copy(of.pairs, [this](Touched::Kind kind, std::int64_t id) { return solid(kind, id); });
+}
+
+void DebrisScene::make_shapes_again(PolyhedronStore& polyhedra) {
+  const auto make = [&](TouchingSolid& of) {
+    collision::make_shapes_again(polyhedra, of);
+    make_shapes(of);
+  };
+  for (const auto& one : bodies)
+    if (one) make(*one);
+  for (const auto& [id, one] : obstacles) make(*one);
+}
+
+PolyhedronStore DebrisScene::features(const PolyhedronStore& polyhedra) const {
+  PolyhedronStore found;
+  for (const auto& one : bodies)
+    if (one) take_features(*one, polyhedra, found);
+  for (const auto& [id, one] : obstacles) take_features(*one, polyhedra, found);
+  return found;
 }
 
 DebrisBody& DebrisScene::body(std::int64_t id) const {
@@ -41,6 +56,11 @@ DebrisBody& DebrisScene::body(std::int64_t id) const {
 DebrisObstacle& DebrisScene::obstacle(std::int64_t id) const { return find_by_id(obstacles, id, "obstacle"); }
 
 DebrisHinge& DebrisScene::hinge(std::int64_t id) const { return find_by_id(hinges, id, "hinge"); }
+
+Solid* DebrisScene::solid(Touched::Kind kind, std::int64_t id) {
+  if (kind == Touched::Kind::body) return &body(id);
+  return kind == Touched::Kind::obstacle ? static_cast<Solid*>(&obstacle(id)) : &ground.solid;
+}
 
 DebrisCable& DebrisScene::cable(std::int64_t id) const { return find_by_id(cables, id, "cable"); }
 

@@ -7,6 +7,7 @@
 
 #include "contacts/near_pairs.h"
 #include "debris/debris_parts.h"
+#include "shapes/polyhedron_store.h"
 #include "solver/solver_settings.h"
 
 namespace topple::collision {
@@ -17,6 +18,11 @@ struct DebrisGround {
   bool there = false;
   double height = 0, friction = 0, restitution = 0;
 };
+template <class Archive>
+void serialize(Archive& archive, DebrisGround& of) {
+  auto& [solid, there, height, friction, restitution] = of;
+  archive(solid, there, height, friction, restitution);
+}
 
 /// Owned by its world; everyone else holds a reference.
 struct DebrisScene {
@@ -24,12 +30,21 @@ struct DebrisScene {
   /// All once more, but shapes, which nothing changes.
   DebrisScene(const DebrisScene& of);
   DebrisScene& operator=(const DebrisScene&) = delete;
+  /// All once more as well, with the shapes made anew; `polyhedra` has their faces. Of a scene with the same settings.
+  template <class Archive>
+  void save(Archive& archive) const;
+  template <class Archive>
+  void load(Archive& archive, PolyhedronStore& polyhedra);
+  /// What `polyhedra` keeps of the shapes that are there.
+  [[nodiscard]] PolyhedronStore features(const PolyhedronStore& polyhedra) const;
 
   // Throw out_of_range for what is not in the world.
   [[nodiscard]] DebrisBody& body(std::int64_t id) const;
   [[nodiscard]] DebrisObstacle& obstacle(std::int64_t id) const;
   [[nodiscard]] DebrisHinge& hinge(std::int64_t id) const;
   [[nodiscard]] DebrisCable& cable(std::int64_t id) const;
+  /// The ground has no id.
+  [[nodiscard]] Solid* solid(Touched::Kind kind, std::int64_t id);
 
   void fall_asleep(DebrisBody& body);
   void wake_up(DebrisBody& body);
@@ -60,6 +75,26 @@ struct DebrisScene {
   std::vector<std::uint32_t> touching;  ///< pairs that have contacts, in order
   std::uint64_t step_number = 0;        ///< of the last step in which any was awake
   Vec3 reading = Vec3::Zero();          ///< by which velocities are read otherwise than between steps
+
+ private:
+  void make_shapes_again(PolyhedronStore& polyhedra);
 };
+
+template <class Archive>
+void DebrisScene::save(Archive& archive) const {
+  // Settings are those that it is made with; what touches is found anew before it is read; velocities are read as
+  // between steps.
+  const auto& [of_settings, g, all_bodies, all_obstacles, all_hinges, all_cables, moving, in_order, awake_ones, below,
+               near, in_contact, number, read_by] = *this;
+  archive(g, all_bodies, all_obstacles, all_hinges, all_cables, moving, in_order, awake_ones, below, number);
+  near.save(archive);
+}
+
+template <class Archive>
+void DebrisScene::load(Archive& archive, PolyhedronStore& polyhedra) {
+  archive(gravity, bodies, obstacles, hinges, cables, moving_obstacles, order, awake_count, ground, step_number);
+  make_shapes_again(polyhedra);
+  pairs.load(archive, [this](Touched::Kind kind, std::int64_t id) { return solid(kind, id); });
+}
 
 }  // namespace topple::collision

@@ -107,7 +107,7 @@ BodyId DebrisWorld::add_body(const BodyDescription& description) {
   made->turned = inertia.turned;
   made->frame = inertia.axes;
   make_parts(description.parts, owner, polyhedra_, *made);
-  make_shapes(description.parts, *made);
+  make_shapes(*made);
   made->mass = description.mass;
   made->moments = inertia.moments;
   made->inverse_root_moments = inertia.moments.cwiseSqrt().cwiseInverse();
@@ -146,7 +146,7 @@ ObstacleId DebrisWorld::add_obstacle(const ObstacleDescription& description) {
   made->id = next_obstacle_;
   made->frame = frame_of_only_box(description.parts).value_or(unturned);
   if (!description.parts.empty()) make_parts(description.parts, owner, polyhedra_, *made);
-  make_shapes(description.parts, *made);
+  make_shapes(*made);
   made->pose = description.pose;
   made->at = made->placement();
   made->friction = description.friction;

@@ -20,6 +20,8 @@ class DebrisWorld final : public World {
   ~DebrisWorld() override;
   DebrisWorld& operator=(const DebrisWorld&) = delete;
   [[nodiscard]] std::unique_ptr<World> copy() const override;
+  void save_state(std::ostream& to) const override;
+  void load_state(std::istream& from) override;
   void set_parallel_for(ParallelFor parallel_for, int threads) override {
     region_ = {std::move(parallel_for), threads};
   }

@@ -28,6 +28,12 @@ class IgnoredPairs {
   /// Those that have come apart are pairs like any other.
   void release(double dt, bool about_to_step);
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [scene, ignored, released] = *this;
+    archive(ignored, released);
+  }
+
  private:
   [[nodiscard]] const Solid& solid(const SolidPair& pair) const;
   void ignore(const SolidPair& pair, bool ignored);

@@ -22,6 +22,10 @@ void PolyhedronStore::give_features(btPolyhedralConvexShape& shape, const std::v
   known_.emplace(made_from, *shape.getConvexPolyhedron());
 }
 
+void PolyhedronStore::take(const PolyhedronStore& from, const std::vector<double>& made_from) {
+  if (const auto found = from.known_.find(made_from); found != from.known_.end()) known_.insert(*found);
+}
+
 namespace {
 
 /// Rounding of coordinates, of the size of what they belong to; corners closer to a straight line than this (sine) are

@@ -19,6 +19,15 @@ class PolyhedronStore {
   /// all that it is given (edges and inner boxes serve a search along separating axes, which is off in Bullet unless
   /// m_enableSatConvex asks for it). False where they are not.
   static bool give_prism(btPolyhedralConvexShape& shape, const std::vector<Eigen::Vector3d>& points);
+  /// What is kept there of shapes that are made from these numbers, if anything is.
+  void take(const PolyhedronStore& from, const std::vector<double>& made_from);
+
+  /// Whatever is missing is sought anew when it is asked for, and is the same to the bit.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [known] = *this;
+    archive(known);
+  }
 
  private:
   std::map<std::vector<double>, btConvexPolyhedron> known_;

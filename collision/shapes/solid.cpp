@@ -16,6 +16,14 @@ namespace {
   throw std::invalid_argument(owner + ", part with tag " + std::to_string(part.tag) + ": " + why);
 }
 
+/// By which the store knows a box or hull.
+std::vector<double> numbers_of(const ConvexPart& part) {
+  if (part.kind == ConvexPart::Kind::box) return {part.half_extents.begin(), part.half_extents.end()};
+  std::vector<double> numbers;
+  for (const Vec3& point : part.points) numbers.insert(numbers.end(), point.begin(), point.end());
+  return numbers;
+}
+
 bool is_rotation(const Eigen::Quaterniond& q) { return q.coeffs().allFinite() && q.norm() > 0.5 && q.norm() < 2; }
 
 /// Largest height of the points over the plane through three of them: below `thin` they enclose no volume.
@@ -41,7 +49,7 @@ std::unique_ptr<btConvexShape> make_box(const ConvexPart& part, const std::strin
   }
   auto box = std::make_unique<btBoxShape>(to_bullet(part.half_extents));
   box->setMargin(std::min(kSkin, 0.1 * part.half_extents.minCoeff()));
-  polyhedra.give_features(*box, {part.half_extents.x(), part.half_extents.y(), part.half_extents.z()});
+  polyhedra.give_features(*box, numbers_of(part));
   return box;
 }
 
@@ -61,14 +69,10 @@ std::unique_ptr<btConvexShape> make_hull(const ConvexPart& part, const std::stri
     refuse(owner, part, "a hull needs four points that do not lie in one plane");
   }
   auto hull = std::make_unique<btConvexHullShape>();
-  std::vector<double> numbers;
-  for (const Vec3& point : part.points) {
-    hull->addPoint(to_bullet(point), false);
-    numbers.insert(numbers.end(), point.begin(), point.end());
-  }
+  for (const Vec3& point : part.points) hull->addPoint(to_bullet(point), false);
   hull->setMargin(kSkin);
   hull->recalcLocalAabb();
-  if (!PolyhedronStore::give_prism(*hull, part.points)) polyhedra.give_features(*hull, numbers);
+  if (!PolyhedronStore::give_prism(*hull, part.points)) polyhedra.give_features(*hull, numbers_of(part));
   return hull;
 }
 
@@ -118,6 +122,12 @@ double reach_of(const SolidPart& part) {
 
 bool fills_frame(const SolidPart& part) { return part.local == btTransform::getIdentity(); }
 
+void make_compound(Solid& solid) {
+  if (solid.parts.size() == 1 && fills_frame(solid.parts.front())) return;
+  solid.compound = std::make_unique<btCompoundShape>(true, static_cast<int>(solid.parts.size()));
+  for (const SolidPart& part : solid.parts) solid.compound->addChildShape(part.local, part.shape.get());
+}
+
 }  // namespace
 
 std::optional<btTransform> frame_of_only_box(const std::vector<ConvexPart>& description) {
@@ -136,26 +146,33 @@ void make_parts(const std::vector<ConvexPart>& description, const std::string& o
   if (description.empty()) throw std::invalid_argument(owner + ": it has no part; at least one is needed");
   for (const ConvexPart& given : description) {
     SolidPart part;
+    ConvexPart placed = given;
     if (given.kind == ConvexPart::Kind::hull) {
       // Its points take up the frame: a body of one hull is no compound then, which pairs cost several times as much.
-      ConvexPart placed = given;
       const btTransform place = frame * to_bullet(given.pose);
       for (Vec3& point : placed.points) point = from_bullet(place * to_bullet(point));
-      part.shape = make_shape(placed, owner, polyhedra);
-      part.local.setIdentity();
-    } else {
-      part.shape = make_shape(given, owner, polyhedra);
-      if (!box_fills_frame) part.local = frame * to_bullet(given.pose);
+    } else if (!box_fills_frame) {
+      part.local = frame * to_bullet(given.pose);
     }
+    part.shape = make_shape(placed, owner, polyhedra);
+    part.made_from = std::make_shared<const ConvexPart>(std::move(placed));
     part.tag = given.tag;
     part.reach = reach_of(part);
     part.thickness = thickness_of(*part.shape);
     solid.reach = std::max(solid.reach, part.reach);
     solid.parts.push_back(std::move(part));
   }
-  if (solid.parts.size() == 1 && fills_frame(solid.parts.front())) return;
-  solid.compound = std::make_unique<btCompoundShape>(true, static_cast<int>(solid.parts.size()));
-  for (const SolidPart& part : solid.parts) solid.compound->addChildShape(part.local, part.shape.get());
+  make_compound(solid);
+}
+
+void make_shapes_again(PolyhedronStore& polyhedra, Solid& solid) {
+  for (SolidPart& part : solid.parts) part.shape = make_shape(*part.made_from, "part", polyhedra);
+  if (!solid.parts.empty()) make_compound(solid);
+}
+
+void take_features(const Solid& solid, const PolyhedronStore& from, PolyhedronStore& to) {
+  for (const SolidPart& part : solid.parts)
+    if (part.made_from->kind != ConvexPart::Kind::sphere) to.take(from, numbers_of(*part.made_from));
 }
 
 int nearest_part(const Solid& solid, const btTransform& pose, const btVector3& point) {

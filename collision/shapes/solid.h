@@ -21,11 +21,24 @@ inline constexpr double kSkin = 0.002;
 
 /// One convex part in the frame of its solid's Bullet transform.
 struct SolidPart {
-  std::shared_ptr<btConvexShape> shape;  ///< never changed, so that copies of a solid share it
+  std::shared_ptr<const ConvexPart> made_from;  ///< a hull's points are in the solid's frame; shared as the shape is
+  std::shared_ptr<btConvexShape> shape;         ///< never changed, so that copies of a solid share it
   btTransform local = btTransform::getIdentity();
   std::int64_t tag = -1;
   double reach = 0;      ///< no point of it is farther from the solid's origin, m
   double thickness = 0;  ///< least width across any of its faces, m
+
+  template <class Archive>
+  void save(Archive& archive) const {
+    const auto& [from, made, in_solid, number, farthest, width] = *this;  // the shape is made again
+    archive(*from, in_solid, number, farthest, width);
+  }
+  template <class Archive>
+  void load(Archive& archive) {
+    ConvexPart from;
+    archive(from, local, tag, reach, thickness);
+    made_from = std::make_shared<const ConvexPart>(std::move(from));
+  }
 };
 
 struct Solid {
@@ -45,6 +58,12 @@ struct Solid {
   [[nodiscard]] const SolidPart& part(int index) const {
     return parts[index < 0 ? 0 : static_cast<std::size_t>(index)];
   }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [is, number, pieces, whole, axes, is_turned, bullet, farthest] = *this;
+    archive(is, number, pieces, axes, is_turned, farthest);  // the compound is made again; `bullet` is another engine's
+  }
 };
 
 /// The frame of a description of one box that lies about the origin: in it the box is no compound, which pairs cost
@@ -55,6 +74,11 @@ struct Solid {
 /// `owner` and the part's tag for a part of no volume or with a number that is not finite, and for no part at all.
 void make_parts(const std::vector<ConvexPart>& description, const std::string& owner, PolyhedronStore& polyhedra,
                 Solid& solid);
+
+/// The shapes of parts of which all else is there: as they were made.
+void make_shapes_again(PolyhedronStore& polyhedra, Solid& solid);
+/// What a store keeps of the solid's shapes.
+void take_features(const Solid& solid, const PolyhedronStore& from, PolyhedronStore& to);
 
 /// The number of a child from a ray or contact of a solid with several parts; the part nearest to a global point.
 [[nodiscard]] int nearest_part(const Solid& solid, const btTransform& pose, const btVector3& point);

@@ -11,7 +11,8 @@ Pose pose_of(const btTransform& transform) {
   return {from_bullet(transform.getOrigin()), from_bullet(transform.getRotation())};
 }
 
-PartShape touching_shape(const ConvexPart& part, const SolidPart& made) {
+PartShape touching_shape(const SolidPart& made) {
+  const ConvexPart& part = *made.made_from;
   PartShape shape;
   if (part.kind == ConvexPart::Kind::sphere) {
     shape.centre = from_bullet(made.local.getOrigin());
@@ -46,9 +47,8 @@ PartShape touching_shape(const ConvexPart& part, const SolidPart& made) {
 
 }  // namespace
 
-void make_shapes(const std::vector<ConvexPart>& description, TouchingSolid& solid) {
-  for (std::size_t i = 0; i < description.size(); ++i)
-    solid.shapes.push_back(touching_shape(description[i], solid.parts[i]));
+void make_shapes(TouchingSolid& solid) {
+  for (const SolidPart& part : solid.parts) solid.shapes.push_back(touching_shape(part));
 }
 
 }  // namespace topple::collision

@@ -19,9 +19,16 @@ struct TouchingSolid : Solid {
     gone += (at.position - seen.position).norm() + reach * (at.turn - seen.turn).norm() / std::sqrt(2.0);
     seen = at;
   }
+
+  /// The shapes follow from the parts.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    Solid::serialize(archive);
+    archive(at, seen, gone);
+  }
 };
 
-/// From the parts of the solid (make_parts) and what they were made from.
-void make_shapes(const std::vector<ConvexPart>& description, TouchingSolid& solid);
+/// From the parts of the solid (make_parts).
+void make_shapes(TouchingSolid& solid);
 
 }  // namespace topple::collision

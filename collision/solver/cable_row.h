@@ -22,6 +22,13 @@ struct CableRow {
   [[nodiscard]] RestJoint at_rest(const SolverBody& of, double dt) const;
   void store_rest(double tension, double dt);
 
+  /// Between steps.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [from, long_, number, total, sum, away] = *this;
+    archive(from, long_, away);  // a step sets the others before it reads them
+  }
+
  private:
   Vec3 direction_ = Vec3::Zero();  ///< away from the anchor
 };

@@ -39,6 +39,15 @@ struct HingeRows {
   [[nodiscard]] RestJoint at_rest() const;
   void store_rest(const Rows& force, double dt);
 
+  /// Between steps.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [holds, in_body, in_holder, of_body, of_holder, number, holder_number, begin_with, force, moment,
+           on_body_moment, on_holder_moment, where_it_was, count, body_rows, holder_rows, gap, along, about, body_arm,
+           holder_arm, holder_way, inverse_mass] = *this;
+    archive(holds, in_body, in_holder, of_body, of_holder, begin_with);  // a step sets the others before it reads them
+  }
+
  private:
   void add_row(const Vec3& along, const Vec3& about, double gap, const SolverBody& body, const SolverBody& holder);
   void apply(const Rows& change, Motion6* velocity, Motion6* changed) const;

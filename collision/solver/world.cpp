@@ -1,6 +1,12 @@
 #include "topple/collision/world.h"
 
+#include <stdexcept>
+
 namespace topple::collision {
+
+void World::save_state(std::ostream&) const { throw std::logic_error("this engine cannot save its state"); }
+
+void World::load_state(std::istream&) { throw std::logic_error("this engine cannot load a state"); }
 
 void World::set_parallel_for(ParallelFor, int) {}
 

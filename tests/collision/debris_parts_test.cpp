@@ -26,7 +26,7 @@ struct Boxes {
     made->kind = Touched::Kind::body;
     made->id = std::ssize(scene.bodies);
     make_parts({part}, "body", polyhedra, *made);
-    make_shapes({part}, *made);
+    make_shapes(*made);
     made->mass = 1;
     made->moments = Vec3::Constant(1.0 / 6);
     made->at.position = at;

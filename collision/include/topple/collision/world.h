@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <span>
@@ -218,6 +219,13 @@ class World {
   /// The same world once more, with its handles and all that its next steps depend on: under the same calls both go on
   /// alike, to the bit. Null where an engine has no such copy.
   [[nodiscard]] virtual std::unique_ptr<World> copy() const { return nullptr; }
+  /// All that copy() takes along, as bytes for the same program, between two steps. Throws std::logic_error where an
+  /// engine cannot, which then has no copy either, and within a step.
+  virtual void save_state(std::ostream& to) const;
+  /// Of a world that was made alike (by the same function): this one goes on as that one, to the bit, and what it held
+  /// before is gone; set_parallel_for() stays. Throws std::runtime_error where bytes are missing: it may be destroyed
+  /// only then.
+  virtual void load_state(std::istream& from);
 
   /// Steps may spread over `threads` threads: those of as many calls in one `parallel_for`, each of which lasts as long
   /// as the part of the step that is shared, and none of which waits for another to begin. It changes no bit. None (an
