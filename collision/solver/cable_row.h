@@ -25,8 +25,8 @@ struct CableRow {
   /// Between steps.
   template <class Archive>
   void serialize(Archive& archive) {
-    auto& [from, long_, number, total, sum, away] = *this;
-    archive(from, long_, away);  // a step sets the others before it reads them
+    auto& [from, reach, number, total, sum, away] = *this;
+    archive(from, reach, away);  // a step sets the others before it reads them
   }
 
  private:

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "topple/collision/world.h"
+#include "topple/collision/world_archive.h"
 
 namespace topple::collision {
 
@@ -21,6 +21,12 @@ struct Overlap {
   /// More than this share of the thickness is deep.
   [[nodiscard]] bool deep() const;
 };
+/// Its members for an archive, as those of world_archive.h.
+template <class Archive>
+void serialize(Archive& archive, Overlap& of) {
+  auto& [body, part_tag, other, depth, thickness] = of;
+  archive(body, part_tag, other, depth, thickness);
+}
 
 /// Watches the contacts of a world, step by step, for overlaps that last.
 class OverlapWatch {
@@ -43,11 +49,23 @@ class OverlapWatch {
   /// How often a pair of parts came to lie deep inside each other.
   [[nodiscard]] std::uint64_t deep_count() const { return deep_count_; }
 
+  /// All that it has read, for an archive.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [watched, next, time, deepest, deep_count] = *this;
+    archive(watched, time, deepest, deep_count);  // `next` is room
+  }
+
  private:
   struct Watched {
     Overlap least;
     double since = 0;
     bool counted = false;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      auto& [overlap, from, told] = *this;
+      archive(overlap, from, told);
+    }
   };
   void finish(Watched& pair);
 
