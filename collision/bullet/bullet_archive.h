@@ -1,20 +1,21 @@
 #pragma once
-// Archives of Bullet's types (state_archive.h).
+// Archives of Bullet's types.
 #include <BulletCollision/CollisionShapes/btConvexPolyhedron.h>
 #include <LinearMath/btTransform.h>
 
 #include <cstdint>
 
+#include "state_archive.h"
+
 /// Three numbers: the fourth is always zero.
 template <class Archive>
 void save(Archive& archive, const btVector3& vector) {
-  archive(vector.x(), vector.y(), vector.z());
+  archive(cereal::binary_data(vector.m_floats, 3 * sizeof(btScalar)));
 }
 template <class Archive>
 void load(Archive& archive, btVector3& vector) {
-  btScalar x = 0, y = 0, z = 0;
-  archive(x, y, z);
-  vector.setValue(x, y, z);
+  vector.setZero();
+  archive(cereal::binary_data(vector.m_floats, 3 * sizeof(btScalar)));
 }
 
 template <class Archive>
@@ -37,7 +38,7 @@ void load(Archive& archive, btAlignedObjectArray<Item>& array) {
 
 template <class Archive>
 void serialize(Archive& archive, btFace& face) {
-  archive(face.m_indices, face.m_plane[0], face.m_plane[1], face.m_plane[2], face.m_plane[3]);
+  archive(face.m_indices, cereal::binary_data(face.m_plane, sizeof(face.m_plane)));
 }
 /// What is read of it: the rest serves a search along separating axes, which is off.
 template <class Archive>
