@@ -80,6 +80,15 @@ class FrameElements {
   /// In the second-order state: null for a shell whose corners are its nodes.
   [[nodiscard]] const JointedShell* jointed(int shell) const;
 
+  /// What stands, and how stiff. The model is archived apart, and given to the constructor; numbers follow from it.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    // Axial state and inertia are the owner's; a shell's stiffness is found again with the same bits.
+    auto& [of_model, of_beams, beams_stand, shells_stand, nodes_stand, axial_state, inertia_of_owner, numbers,
+           elements_of, kept_stiffness] = *this;
+    archive(of_beams, beams_stand, shells_stand, nodes_stand);
+  }
+
  protected:
   /// Takes a model of the same elements and the same numbering in the place of its own; all of it stands, and the
   /// stiffness of each shell is kept as long as its numbers are the same. False for any other, which is left as it was

@@ -21,6 +21,11 @@ namespace topple::solver {
 struct Defect {
   std::string message;
   Mechanism motion;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [what, moves] = *this;
+    archive(what, moves);
+  }
 };
 /// Throws it as Instability, where there is one.
 void require_none(const std::optional<Defect>& defect);
@@ -33,6 +38,11 @@ struct LoadVector {
   std::vector<Vec24> shell_fixed;     ///< per shell, global; empty when no shell is loaded
   std::vector<Vec6> node_load;        ///< per node, as given; empty when none
   std::vector<int> unbalanced_beams;  ///< loaded in a motion that nothing resists
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [on_equations, imposed, of_beams, of_shells, on_nodes, unbalanced] = *this;
+    archive(on_equations, imposed, of_beams, of_shells, on_nodes, unbalanced);
+  }
 };
 
 class FrameSystem : public FrameElements {
@@ -88,6 +98,17 @@ class FrameSystem : public FrameElements {
   /// each node.
   void node_displacements_of_scaled(const Eigen::VectorXd& solution, std::vector<Vec6>& result) const;
   [[nodiscard]] Vec6 node_displacement_of_scaled(int node, const Eigen::VectorXd& solution) const;
+
+  /// Of a system of the same model, with the same inertia. What its own members are not named for follows from the
+  /// model (supports, pattern), or is scratch.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    FrameElements::serialize(archive);
+    bool has_mass = !mass_.start.empty();
+    archive(matrix_.value, scale_, inert_, has_mass);
+    if (has_mass && mass_.start.empty()) mass_ = assembly_map_.empty_matrix();
+    if (has_mass) archive(mass_.value);
+  }
 
  private:
   void add_element(std::size_t element, const std::vector<char>& wanted);

@@ -17,6 +17,12 @@ class InertMotions {
     int count = 0;
     double stiffness = 0;            ///< that holds it
     Mat3 directions = Mat3::Zero();  ///< columns, as many as `count`
+    template <class Archive>
+    void serialize(Archive& archive) {
+      auto& [how_many, held_by, columns] = *this;
+      archive(how_many);
+      if (how_many > 0) archive(held_by, columns);
+    }
   };
 
   /// None.
@@ -30,6 +36,12 @@ class InertMotions {
   void add_stiffness(std::size_t node, Mat6& K) const;
   /// Takes away the parts along these directions of a vector of forces (no `scale`), or of scaled displacements.
   void drop(const DofMap& dofs, std::span<const double> scale, Eigen::VectorXd& values) const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [of, counts] = *this;
+    archive(of, counts);
+  }
 
  private:
   std::array<std::vector<Node>, 2> of_;  ///< per kind and node

@@ -39,16 +39,32 @@ class ChangedMomentum {
   [[nodiscard]] std::optional<Vec6> left_with(const FrameSystem& system, int beam, const std::vector<BeamLoad>& loads,
                                               double h) const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [broken, changed, brought, fixed_end] = *this;
+    archive(broken, changed, brought, fixed_end);
+  }
+
  private:
   struct BrokenJoint {
     int beam;
     std::size_t end;
     Vec6 mean_force;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      auto& [of_beam, at_end, until_then] = *this;
+      archive(of_beam, at_end, until_then);
+    }
   };
   struct ChangedBeam {
     int beam;
     Mat12 followed;
     Vec6 momentum;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      auto& [number, ends, at_start] = *this;
+      archive(number, ends, at_start);
+    }
   };
   void add_brought(const FrameSystem& system, double h, Eigen::VectorXd& force) const;
 

@@ -31,6 +31,14 @@ class EnergyLedger {
   void book_end(const MotionState& start, const MotionState& end, const GeneralizedAlpha& method,
                 const RayleighDamping& damping);
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    // Products with the motion are found again with the same bits; all that follows them is of one substep alone.
+    auto& [energy, mass_products, matrix_products, known, s, old_products, moved, motion_columns, moved_columns] = *this;
+    if constexpr (Archive::is_loading::value) known = false;
+    archive(energy);
+  }
+
  private:
   void find_products(const FrameSystem& system, const MotionState& motion);
   void book_numerical(const MotionState& start, const MotionState& end, const GeneralizedAlpha& method);

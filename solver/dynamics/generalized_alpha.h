@@ -28,6 +28,11 @@ struct GeneralizedAlpha {
     c = (1 - af) * (beta * h * h + gamma * h * stiffness_damping);
     s = (1 - am) / c;
   }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [mass_share, force_share, of_displacement, of_velocity, substep, of_acceleration, shift] = *this;
+    archive(mass_share, force_share, of_displacement, of_velocity, substep, of_acceleration, shift);
+  }
 };
 
 }  // namespace topple::solver

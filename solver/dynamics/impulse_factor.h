@@ -1,6 +1,8 @@
 #pragma once
 // How a frame that moves takes impulses: (M + e K)^-1, by a factor of K + M/e. It is kept beside the factor of the
 // substeps, follows the same changes as that does, and is made when an impulse first asks for it.
+#include <iosfwd>
+
 #include "dynamics/dynamic_state.h"
 
 namespace topple::solver {
@@ -21,6 +23,10 @@ struct FrameDynamics::State::ImpulseFactor {
   /// F' (M + e K)^-1 G in these equations; G is zero wherever F is. Only what joins their rows in the factor is gone
   /// through.
   [[nodiscard]] Eigen::MatrixXd between(const Eigen::MatrixXd& F, const Eigen::MatrixXd& G);
+
+  // dynamics_archive.cpp. Of one with the same damping.
+  void save_to(std::ostream& to) const;
+  void load_from(std::istream& from);
 
  private:
   [[nodiscard]] Reanalysis::State& own() { return *frame_.state_; }

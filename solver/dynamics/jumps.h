@@ -1,6 +1,7 @@
 #pragma once
 // How the velocities of a frame that moves answer impulses: (M + h a1 K)^-1, by conjugate gradients on M where damping
 // is next to nothing, else by a factor of its own.
+#include <iosfwd>
 #include <memory>
 
 #include "dynamics/dynamic_state.h"
@@ -25,6 +26,10 @@ class FrameDynamics::State::Jumps {
   [[nodiscard]] Eigen::VectorXd velocities(const FrameSystem& system, const Eigen::VectorXd& impulses);
   /// F' (M + h a1 K)^-1 F of impulses in columns, of which those on mass alone act.
   [[nodiscard]] Eigen::MatrixXd mobility(const FrameSystem& system, const Eigen::MatrixXd& F);
+
+  // dynamics_archive.cpp. `system`: the frame's, as it was loaded.
+  void save_to(std::ostream& to) const;
+  void load_from(std::istream& from, const FrameSystem& system);
 
  private:
   [[nodiscard]] bool damps(const FrameSystem& system) const;

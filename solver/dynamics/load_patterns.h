@@ -37,6 +37,12 @@ class LoadPatterns {
   /// Of a beam, local, at either end of the substep under way, or of the last one.
   void add_fixed_end(int beam, bool at_end, Vec12& fixed_end) const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [patterns] = *this;
+    archive(patterns);
+  }
+
  private:
   struct Pattern {
     enum class Kind { loads, ground, holding } kind = Kind::loads;
@@ -46,6 +52,11 @@ class LoadPatterns {
     Eigen::VectorXd force;           ///< scaled; empty: to be found
     double current = 0, next = 0;    ///< values now, and at the end of the next substep
     double before = 0, now = 0;      ///< at both ends of the substep under way, or the last one
+    template <class Archive>
+    void serialize(Archive& archive) {
+      auto& [of_kind, in_space, along, on_beams, on_equations, value, value_at_end, at_start, at_end] = *this;
+      archive(of_kind, in_space, along, on_beams, on_equations, value, value_at_end, at_start, at_end);
+    }
   };
   [[nodiscard]] int add(Pattern pattern);
   static void find(const FrameSystem& system, Pattern& pattern);

@@ -20,6 +20,12 @@ class NodeMotions {
   [[nodiscard]] const NodeMotion& start() const { return start_; }
   [[nodiscard]] const NodeMotion& end() const { return end_; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [start, end, known, end_known] = *this;
+    archive(start, end, known, end_known);
+  }
+
  private:
   NodeMotion start_, end_;
   bool known_ = false, end_known_ = false;  ///< all of them, the displacements at the end

@@ -26,6 +26,13 @@ struct Kink {
   Eigen::SparseVector<double> force;  ///< of its beam on the nodes, scaled, for 1 rad
   Eigen::VectorXd response;           ///< of w in a substep to 1 rad more at its end; empty: to be found
   [[nodiscard]] Eigen::Index component_index() const { return static_cast<Eigen::Index>(6 * end) + component; }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [of_beam, at_end, of_component, at_start, at_substep_end, turned, turned_at_start, holds, was_tried, is_known,
+           on_beam, on_nodes, answer] = *this;
+    archive(of_beam, at_end, of_component, at_start, at_substep_end, turned, turned_at_start, holds, was_tried,
+            is_known, on_beam, on_nodes, answer);
+  }
 };
 
 class PlasticKinks {
@@ -77,6 +84,12 @@ class PlasticKinks {
   /// Of the substep under way, before it is accepted.
   void account(const Eigen::VectorXd& u_start, const Eigen::VectorXd& u_end, const GeneralizedAlpha& method,
                double stiffness_damping, const LoadsOfBeam& loads, DynamicEnergy& energy) const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [kinks, of_beam] = *this;
+    archive(kinks, of_beam);
+  }
 
  private:
   std::vector<Kink> kinks_;

@@ -11,6 +11,11 @@ namespace topple::solver {
 struct ElementModes {
   std::vector<int> rows;  ///< equations; one may come twice (two freedoms in one diaphragm)
   Eigen::MatrixXd B;      ///< a row for each
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [equations, motions] = *this;
+    archive(equations, motions);
+  }
 };
 
 /// What the second end moves beyond the rigid motion of the first, along the beam's axes: 6 columns. With inertia every

@@ -27,11 +27,30 @@ class DenseFactor {
   void solve(double* x, int columns = 1) const;
   [[nodiscard]] int size() const { return size_; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [size, capacity, parts, value, work, pivot, integer_work, inverse_norm] = *this;  // both works are scratch
+    archive(size, capacity, parts, pivot, inverse_norm);
+    const auto room = static_cast<std::size_t>(capacity);
+    value.resize(room * room);
+    work.resize(4 * room);
+    integer_work.resize(room);
+    Matrix own(value.data(), size, size, Eigen::OuterStride<>(capacity));
+    Eigen::MatrixXd leading = own;
+    archive(leading);
+    if constexpr (Archive::is_loading::value) own = leading;
+  }
+
  private:
   [[nodiscard]] int kept() const;
   struct Part {
     int rows = 0;  ///< up to its end
     double inverse_norm = 1;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      auto& [up_to, of_inverse] = *this;
+      archive(up_to, of_inverse);
+    }
   };
   int size_ = 0, capacity_ = 0;
   std::vector<Part> parts_;  ///< added together, each

@@ -19,6 +19,11 @@ struct EliminationPath {
   std::vector<int> block;
   std::vector<int> offset;  ///< per block of the path; one more at the end: the number of rows
   [[nodiscard]] int rows() const { return offset.back(); }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [blocks, offsets] = *this;
+    archive(blocks, offsets);
+  }
 };
 
 /// Columns that are zero outside of one path; rows are those of the path, in its numbering.

@@ -32,12 +32,13 @@ void BackgroundFactor::make(const std::vector<int>& order, const AnalysisOptions
   const double condition = estimate_condition(matrix_, [&](auto b) { factor->solve(b); });
   if (1 / condition < options.warning_limit) return;
   std::optional<TriangularSolver> triangles(*factor);
-  result_ = {std::move(factor), condition, std::move(triangles)};
+  result_ = {std::move(factor), condition, std::move(triangles), {}};
 }
 
 BackgroundFactor::Result BackgroundFactor::extract(bool& late) {
   late = !done_;
   thread_.join();
+  result_.values = std::move(matrix_.value);
   return std::move(result_);
 }
 

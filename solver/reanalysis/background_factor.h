@@ -27,9 +27,12 @@ class BackgroundFactor {
     std::unique_ptr<Factor> factor;  ///< none: the matrix is not definite, or lies in the warning band
     double condition = 0;
     std::optional<TriangularSolver> triangles;  ///< over the factor
+    std::vector<double> values;                 ///< of the matrix that it was made of
   };
   /// Waits for the factor; once. `late`: it was not there yet.
   [[nodiscard]] Result extract(bool& late);
+  /// What it is made of; until extract().
+  [[nodiscard]] const SparseSymmetric& matrix() const { return matrix_; }
 
  private:
   void make(const std::vector<int>& order, const AnalysisOptions& options);

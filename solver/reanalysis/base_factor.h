@@ -87,6 +87,15 @@ class BaseFactor {
   [[nodiscard]] double solve_cost() const;
   [[nodiscard]] double correction_cost() const;
 
+  /// Of one that is to be loaded the factor is installed before, where it was.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    // The system and the factor are their owner's. What follows `planned` lives no longer than an answer.
+    auto& [system, changes, solver, correction, number, planned, along, eliminated, column, columns, marked] = *this;
+    archive(changes, number, planned);
+    if (correction) archive(*correction);
+  }
+
  private:
   void forget_unchanged(std::optional<Eigen::Index> kept = {});
   void add_planned();

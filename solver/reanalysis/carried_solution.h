@@ -71,6 +71,15 @@ class CarriedSolution {
   [[nodiscard]] const std::vector<Vec6>& displacements() const { return displacements_; }
   [[nodiscard]] SelectiveSolution::Answer answer() { return {solution_, displacements_}; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    // What was eliminated along with a correction, and all that follows it, is of one answer alone.
+    auto& [solution, solved, displacements, first, first_solved, first_quality, stale_nodes, loaded_nodes, expected,
+           eliminated_along, right_hand_side, correction, improved, eliminated, rows_to_change, rows_off] = *this;
+    if constexpr (Archive::is_loading::value) eliminated_along = false;
+    archive(solution, solved, displacements, first, first_solved, first_quality, stale_nodes, loaded_nodes, expected);
+  }
+
  private:
   void find_changed_rows(const FrameSystem& system);
   void add_rows_of(const FrameSystem& system, std::span<const int> nodes);

@@ -31,6 +31,12 @@ class ChangingLoad {
   /// Of a beam, local.
   [[nodiscard]] const Vec12& fixed_end(std::size_t beam) const { return fixed_end_[beam]; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [node_loads, fixed_end, at_nodes, unbalanced, load, known, stale_nodes] = *this;
+    archive(node_loads, fixed_end, at_nodes, unbalanced, load, known, stale_nodes);
+  }
+
  private:
   void sum_up(const FrameSystem& system);
   void sum_up_at(const FrameSystem& system, int node);

@@ -32,6 +32,7 @@ bool FactorRefresh::receive(ReanalysisWork& work) {
   }
   base_->install(std::move(*made.triangles));
   factor_ = std::move(made.factor);
+  values_ = std::move(made.values);
   condition_ = made.condition;
   return true;
 }
@@ -46,7 +47,9 @@ bool FactorRefresh::go_on(ReanalysisWork& work) {
 
 bool FactorRefresh::finish(ReanalysisWork& work) { return factor_ || (making_ && receive(work)); }
 
-FactorRefresh::Made FactorRefresh::release() { return {std::move(factor_), std::move(base_), condition_}; }
+FactorRefresh::Made FactorRefresh::release() { 
+  return {std::move(factor_), std::move(base_), condition_, std::move(values_)};
+}
 
 void FactorRefresh::drop() {
   if (making_) unwanted_ = std::move(making_);

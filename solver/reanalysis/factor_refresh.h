@@ -21,7 +21,8 @@ class FactorRefresh {
   struct Made {
     std::unique_ptr<Factor> factor;
     std::unique_ptr<BaseFactor> base;
-    double condition = 0;  ///< of the matrix that it was made of
+    double condition = 0;        ///< of the matrix that it was made of
+    std::vector<double> values;  ///< of that matrix
   };
 
   void set_rules(RefreshRules rules) { rules_ = std::move(rules); }
@@ -45,6 +46,13 @@ class FactorRefresh {
   /// The thread of one that is under way is waited for when the next one begins.
   void drop();
 
+  // factor_archive.h. A factor that is under way is begun anew where it is loaded. What runs on the other thread before
+  // it begins is not saved: the loaded one keeps its own.
+  template <class Archive>
+  void save(Archive& archive, const FrameSystem& system) const;
+  template <class Archive>
+  void load(Archive& archive, const FrameSystem& system, const std::vector<int>& order, const AnalysisOptions& options);
+
  private:
   [[nodiscard]] bool receive(ReanalysisWork& work);
 
@@ -53,6 +61,7 @@ class FactorRefresh {
   std::unique_ptr<BackgroundFactor> making_;    ///< the factor that it is to serve with
   std::unique_ptr<BackgroundFactor> unwanted_;  ///< its result is not needed any more
   std::unique_ptr<Factor> factor_;              ///< what was made; base_ adds later changes to it
+  std::vector<double> values_;                  ///< of the matrix that it was made of
   double condition_ = 0;
   double paid_ = 0, due_ = 0;  ///< cost of answers since it was begun; cost at which it is taken
   bool allowed_ = true;

@@ -57,6 +57,12 @@ class LowRankCorrection {
   /// order.
   [[nodiscard]] Eigen::VectorXd softest_motion() const;
 
+  // factor_archive.h
+  template <class Archive>
+  void save(Archive& archive) const;
+  template <class Archive>
+  void load(Archive& archive);
+
  private:
   /// Columns; to break and restore the same few joints makes nothing anew.
   static constexpr Eigen::Index always_kept = 96;
@@ -69,7 +75,15 @@ class LowRankCorrection {
     bool active = false;
     bool factorised = false;       ///< with this D
     std::vector<char> gram_known;  ///< per place up to itself: whether gram_ has their product
+    template <class Archive>
+    void serialize(Archive& archive) {
+      auto& [along, columns, triangle, change, row, is_active, is_factorised, known] = *this;
+      archive(along, columns, triangle, change, row, is_active, is_factorised, known);
+    }
   };
+  /// Calls visit(place, other) for each product that gram_ has.
+  template <class Visit>
+  void each_known_product(const Visit& visit) const;
   int order_active();
   void fill_capacitance(int kept);
   void compute_gram(Place& place, const Place& other);

@@ -50,12 +50,8 @@ void Reanalysis::State::apply_supports(std::vector<int>& touched) {
   if (pattern_changes) rebuild();
 }
 
-/// A freedom became free or held: the equations are numbered and ordered anew.
-void Reanalysis::State::rebuild() {
-  complete(nullptr);
-  selective.reset();
-  refresh.drop();
-  auto fresh = std::make_unique<FrameSystem>(system->model);
+void Reanalysis::State::renumber(FrameModel model) {
+  auto fresh = std::make_unique<FrameSystem>(std::move(model));
   fresh->beam_factor = system->beam_factor;
   fresh->beam_stands = system->beam_stands;
   fresh->shell_stands = system->shell_stands;
@@ -65,6 +61,14 @@ void Reanalysis::State::rebuild() {
   serving.reset();
   system = std::move(fresh);
   serving.emplace(*system, options);
+}
+
+/// A freedom became free or held: the equations are numbered and ordered anew.
+void Reanalysis::State::rebuild() {
+  complete(nullptr);
+  selective.reset();
+  refresh.drop();
+  renumber(system->model);
   solution.forget();
   load.forget();
   assembled = structure_stands = false;

@@ -6,14 +6,17 @@
 
 namespace topple::solver {
 
+void Reanalysis::State::begin_selective() {
+  const auto stiffness_of = [this](int beam) -> const BeamStrainForces& {
+    return strain_forces.of(*system, static_cast<std::size_t>(beam));
+  };
+  selective = std::make_unique<SelectiveSolution>(*system, serving->base()->triangles(), stiffness_of);
+}
+
 void Reanalysis::State::read_all_utilisations(UtilisationWatch& watch) {
   BaseFactor* const base = serving->base();
   if (base == nullptr) return;
-  if (!selective)
-    selective =
-        std::make_unique<SelectiveSolution>(*system, base->triangles(), [this](int beam) -> const BeamStrainForces& {
-          return strain_forces.of(*system, static_cast<std::size_t>(beam));
-        });
+  if (!selective) begin_selective();
   if (selective->uses_known()) return;
   complete(nullptr);
   selective->read_all(watch);

@@ -50,10 +50,10 @@ const ReanalysisAnswer& Reanalysis::State::solve(UtilisationWatch* watch) {
     if (watch != nullptr && answer.stable) read_all_utilisations(*watch);
     return answer;
   }
-  const double before = counted_work();
+  const CountedWork work_of_answer;
   apply_changes(watch);
   find_answer(watch);
-  refresh.pay(counted_work() - before);
+  refresh.pay(work_of_answer.so_far());
   return answer;
 }
 

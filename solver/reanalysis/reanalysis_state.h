@@ -1,5 +1,6 @@
 #pragma once
 // What a Reanalysis holds: the system as it stands, what it is to become, the factor and the answer.
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <span>
@@ -62,6 +63,9 @@ struct Reanalysis::State {
   void apply_given_stiffness(std::vector<int>& touched);
   void remember_plate(std::size_t element);
   void rebuild();
+  /// One of the same structure with its equations numbered as the model has it now takes the place of the system; what
+  /// refers to that must be gone.
+  void renumber(FrameModel model);
   template <class Report>
   void report_factors(const Report& report) {
     if (serving->base() != nullptr) report(serving->base()->changes());
@@ -108,6 +112,7 @@ struct Reanalysis::State {
   [[nodiscard]] BaseFactor::Loss residual_without(int beam);
 
   // reanalysis_selective.cpp
+  void begin_selective();
   /// Brings displacements up to date where the watch needs it. False: a full answer is needed.
   [[nodiscard]] bool answer_in_part(UtilisationWatch& watch);
   void report_effort();
@@ -117,6 +122,10 @@ struct Reanalysis::State {
   /// Makes a selective answer whole.
   void complete(UtilisationWatch* watch);
   void read_all_utilisations(UtilisationWatch& watch);
+
+  // reanalysis_archive.cpp
+  void save_to(std::ostream& to) const;
+  void load_from(std::istream& from);
 
   // reanalysis.cpp
   [[nodiscard]] Vec12 end_forces(std::size_t beam, const std::vector<Vec6>& displacements, const Vec12& fixed) const;

@@ -7,6 +7,11 @@ namespace topple::solver {
 struct ReanalysisWork {
   ReanalysisCounters counters;
   double operations = 0;  ///< of the last solve()
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [done, of_last] = *this;
+    archive(done, of_last);
+  }
 };
 
 }  // namespace topple::solver

@@ -19,6 +19,11 @@ struct BeamTarget {
   double factor = 1;
   double density = 0;  ///< of a frame that moves
   std::vector<BeamLoad> loads;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [stiffness, is_removed, on_moduli, of_mass, of_weight] = *this;
+    archive(stiffness, is_removed, on_moduli, of_mass, of_weight);
+  }
 };
 
 class RequestedChanges {
@@ -63,6 +68,14 @@ class RequestedChanges {
   [[nodiscard]] const Mat24* stiffness_of_shell(const FrameModel& model, int shell) const;
   [[nodiscard]] const Eigen::MatrixXd& stiffness_of_patch(const FrameModel& model, int patch) const;
   [[nodiscard]] const Eigen::MatrixXd& mass_of_patch(const FrameModel& model, int patch) const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [targets, shell_removed, beams, shells, dropped_nodes, supports, shell_stiffness, patch_stiffness,
+           patch_mass] = *this;
+    archive(targets, shell_removed, beams, shells, dropped_nodes, supports, shell_stiffness, patch_stiffness,
+            patch_mass);
+  }
 
  private:
   template <class Value>

@@ -69,11 +69,25 @@ class SelectiveSolution {
     int beams = 0, shells = 0;
     double energy = 0;    ///< of the change, in all (J)
     double left_out = 0;  ///< the bound of what is in the parts left out (J)
+    template <class Archive>
+    void serialize(Archive& archive) {
+      auto& [of_factor, of_beams, of_shells, of_change, at_most] = *this;
+      archive(of_factor, of_beams, of_shells, of_change, at_most);
+    }
   };
   /// Of the last advance().
   [[nodiscard]] const Effort& effort() const { return effort_; }
   /// Upper bound of the utilisations of all elements that are not up to date.
   [[nodiscard]] double bound_left_out() const { return bound_left_out_; }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    // System, factor and what lies in its blocks are those it was made with; `now` is the change under way.
+    auto& [system, solver, contents, older, unread, below_start, behind, own_use, bound, growth, slack, waiting, now,
+           beam_stiffness, partial, any_unread, uses_known, growths_known, bound_left_out, effort] = *this;
+    archive(older, unread, behind, own_use, bound, growth, slack, waiting, partial, any_unread, uses_known,
+            growths_known, bound_left_out, effort);
+  }
 
  private:
   [[nodiscard]] bool is_current(int block) const;

@@ -59,6 +59,7 @@ Stability ServingFactor::make(ReanalysisWork& work) {
     ++work.counters.refactorisations;
   }
   work.operations += operations();
+  values_ = system_.matrix().value;
   Stability verdict = factorise_and_judge(system_, *factor_, options_);
   if (verdict.defect) return verdict;
   condition_ = verdict.condition > 0 ? verdict.condition : estimate_condition(system_.matrix(), linear_solve());
@@ -74,6 +75,7 @@ FactorRefresh::Made ServingFactor::replace(FactorRefresh::Made made) {
   std::swap(factor_, made.factor);
   std::swap(base_, made.base);
   std::swap(condition_, made.condition);
+  std::swap(values_, made.values);
   correction_paid_ = looked_at_softening_ = 0;
   return made;
 }

@@ -80,6 +80,12 @@ class ServingFactor {
   [[nodiscard]] Eigen::MatrixXd respond_on_paths(const Eigen::MatrixXd& force, std::span<const int> nodes,
                                                  std::vector<char>& known) const;
 
+  // factor_archive.h. Factors are not written, but what they were made of: they have the same bits when made anew.
+  template <class Archive>
+  void save(Archive& archive) const;
+  template <class Archive>
+  void load(Archive& archive);
+
  private:
   [[nodiscard]] FactorWork factor_work() const;
   [[nodiscard]] Eigen::VectorXd respond_alone(const Eigen::VectorXd& force, double& error) const;
@@ -89,6 +95,7 @@ class ServingFactor {
   const AnalysisOptions& options_;
   std::vector<int> order_;  ///< of elimination
   std::unique_ptr<Factor> factor_;
+  std::vector<double> values_;  ///< of the matrix that it was made of
   std::unique_ptr<MatrixRows> rows_;
   std::unique_ptr<BaseFactor> base_;
   double condition_ = 0;            ///< of the factorised matrix

@@ -35,11 +35,21 @@ class SystemChanges {
     Kind kind;
     int index;
     auto operator<=>(const Place&) const = default;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      auto& [of_kind, number] = *this;
+      archive(of_kind, number);
+    }
   };
   struct Change {
     Eigen::MatrixXd D;
     bool extracted = false;  ///< by extract_changed(), as it is
     [[nodiscard]] bool active() const { return (D.array() != 0).any(); }
+    template <class Archive>
+    void serialize(Archive& archive) {
+      auto& [more, is_extracted] = *this;
+      archive(more, is_extracted);
+    }
   };
   /// Compares the system as it is now with what was remembered. False: something changed that is none of a place's.
   [[nodiscard]] bool compare();
@@ -57,6 +67,14 @@ class SystemChanges {
   [[nodiscard]] bool any_dropped() const { return !dropped_.empty(); }
   /// Sets what dropped nodes have in a vector of the equations to zero.
   void clear_dropped(Eigen::VectorXd& x) const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [system, beam_before, shell_before, shell_modes, plate_before, node_before, diaphragm_node_before, dropped,
+           stale_beams, touched, dropped_more, changes] = *this;  // the system is its owner's
+    archive(beam_before, shell_before, shell_modes, plate_before, node_before, diaphragm_node_before, dropped,
+            stale_beams, touched, dropped_more, changes);
+  }
 
  private:
   void compare_beam(int beam, const BeamModeMatrix& before);

@@ -1,5 +1,7 @@
 #include "reanalysis/work_count.h"
 
+#include <utility>
+
 namespace topple::solver {
 
 namespace {
@@ -7,6 +9,9 @@ thread_local double counted = 0;
 }  // namespace
 
 void count_work(double nanoseconds) { counted += nanoseconds; }
-double counted_work() { return counted; }
+
+CountedWork::CountedWork() : before_(std::exchange(counted, 0)) {}
+CountedWork::~CountedWork() { counted += before_; }
+double CountedWork::so_far() const { return counted; }
 
 }  // namespace topple::solver

@@ -6,7 +6,17 @@ namespace topple::solver {
 
 /// Adds what something takes, in nanoseconds of the machine that the costs in update_costs.cpp were measured on.
 void count_work(double nanoseconds);
-/// All that this thread has counted.
-[[nodiscard]] double counted_work();
+/// What its thread counts while it lives. That begins at nothing: its bits do not depend on what was counted before.
+class CountedWork {
+ public:
+  CountedWork();
+  ~CountedWork();
+  CountedWork(const CountedWork&) = delete;
+  CountedWork& operator=(const CountedWork&) = delete;
+  [[nodiscard]] double so_far() const;
+
+ private:
+  double before_;
+};
 
 }  // namespace topple::solver

@@ -5,6 +5,7 @@
 // where K alone is a mechanism. A freedom with neither stiffness nor mass is left out.
 #include <array>
 #include <cstdint>
+#include <iosfwd>
 #include <memory>
 #include <span>
 #include <utility>
@@ -292,6 +293,13 @@ class FrameDynamics {
   [[nodiscard]] const DynamicCounters& counters() const;
   /// How the equations were solved.
   [[nodiscard]] const ReanalysisCounters& reanalysis_counters() const;
+
+  /// Writes all that the motion from here on depends on, changes and impulses that wait for the next substep included;
+  /// nothing here changes. Bytes are for the same program alone.
+  void save_state(std::ostream& to) const;
+  /// Takes what was saved from one made with the same arguments, whatever this one has been through: both then go on
+  /// alike, to the bit. Throws std::runtime_error where bytes are missing; after that this may be destroyed only.
+  void load_state(std::istream& from);
 
  private:
   struct State;

@@ -8,6 +8,7 @@
 // Instability: a mechanism is an answer.
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <span>
@@ -187,6 +188,14 @@ class Reanalysis {
   [[nodiscard]] const FrameModel& model() const;
   /// Predicted operations of the last solve().
   [[nodiscard]] double last_operations() const;
+
+  /// Writes all that later answers depend on, changes recorded since the last solve() included; nothing here changes. A
+  /// factor under way in the background is not waited for. Bytes are for the same program alone.
+  void save_state(std::ostream& to) const;
+  /// Takes what was saved from one made with the same model and options, whatever this one has been through: both then
+  /// answer alike, to the bit, a watch that has read no less given. Only RefreshRules::on_worker stays its own. Throws
+  /// std::runtime_error where bytes are missing; after that this may be destroyed only.
+  void load_state(std::istream& from);
 
  private:
   friend class FrameDynamics;  // moves on the same equations: its matrix is K + s M, changed and factorised as here
