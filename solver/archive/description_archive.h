@@ -1,6 +1,8 @@
 #pragma once
 // What the solver's public description structs and answers are in an archive (state_archive.h).
-#include "state_archive.h"
+#include <cstdint>
+#include <vector>
+
 #include "topple/solver/frame_dynamics.h"
 #include "topple/solver/frame_model.h"
 #include "topple/solver/reanalysis.h"
@@ -29,10 +31,14 @@ void serialize(Archive& archive, BeamLoad& load) {
   auto& [beam, kind, from, to, first, last, strain, curvature_y, curvature_z] = load;
   archive(beam, kind, from, to, first, last, strain, curvature_y, curvature_z);
 }
+/// Not by serialize() of one of them: its member `load` passes for cereal's function of that name, and nothing would be
+/// read.
 template <class Archive>
-void serialize(Archive& archive, NodeLoad& load) {
-  auto& [node, force] = load;
-  archive(node, force);
+void archive_node_loads(Archive& archive, std::vector<NodeLoad>& loads) {
+  std::uint64_t count = loads.size();
+  archive(count);
+  loads.resize(count);
+  for (auto& [node, force] : loads) archive(node, force);
 }
 template <class Archive>
 void serialize(Archive& archive, ShellLoad& load) {
@@ -47,7 +53,8 @@ void serialize(Archive& archive, Settlement& settlement) {
 template <class Archive>
 void serialize(Archive& archive, LoadSet& loads) {
   auto& [nodes, beams, shells, settlements] = loads;
-  archive(nodes, beams, shells, settlements);
+  archive_node_loads(archive, nodes);
+  archive(beams, shells, settlements);
 }
 
 template <class Archive>
@@ -105,6 +112,3 @@ void serialize(Archive& archive, FrameDynamics::Impulse& struck) {
 }
 
 }  // namespace topple::solver
-
-// Its member `load` would pass for a function of that name.
-CEREAL_SPECIALIZE_FOR_ALL_ARCHIVES(topple::solver::NodeLoad, cereal::specialization::non_member_serialize)
