@@ -5,6 +5,7 @@
 // One solver::Reanalysis serves each connected component that the building has at the start; joints that break change
 // it in place, and what detaches is dropped from it.
 #include <functional>
+#include <iosfwd>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -15,34 +16,11 @@
 #include "topple/solver/frame_dynamics.h"
 #include "topple/solver/frame_model.h"
 #include "topple/structure/building.h"
+#include "topple/structure/joint_break.h"
 #include "topple/structure/joint_check.h"
 #include "topple/structure/scenario.h"
 
 namespace topple::structure {
-
-enum class BreakCause { impact, overload, buckling, bracing, tool };
-
-/// A joint that broke, or yielded, and why.
-struct JointBreak {
-  JointId joint;                            ///< that broke
-  BreakCause cause = BreakCause::overload;  ///< what broke it
-  Sense sense = Sense::tension;             ///< in which it was over capacity
-  double demand = 0;                        ///< in that sense, N or N m
-  double capacity = 0;                      ///< in that sense, N or N m
-  int generation = 0;                       ///< within the step
-  double energy = 0;                        ///< elastic energy that the break sets free
-  Vec3 position = Vec3::Zero();             ///< of the joint, m
-  /// No joint broke: the member of this one was cut in two here, as a fraction of its length from its first end.
-  std::optional<double> inside{};
-};
-
-/// A joint that has turned beyond what is elastic, and holds.
-struct PlasticRotation {
-  JointId joint;                  ///< of a member's end that stands
-  Sense sense = Sense::moment_y;  ///< torsion, moment_y or moment_z
-  double turned = 0;              ///< rad, of the rigid end less that of the member's end; keeps its sign
-  double limit = 0;               ///< rad: the joint breaks where it would turn further than that, either way
-};
 
 /// A connected part that lost its hold (or moves as a mechanism): it leaves the frame for good. Joints inside it that
 /// held stay intact(), so that a body made of it can break further along them; the displacements of its nodes stay what
@@ -389,6 +367,14 @@ class StandingFrame {
   [[nodiscard]] const FrameCounters& counters() const;
   /// As it was given.
   [[nodiscard]] const Building& building() const;
+
+  /// All that has happened to it, changes that wait and what has not been handed out included, for load_state() of this
+  /// very program. Between two calls, in motion as at rest; changes nothing.
+  void save_state(std::ostream& to) const;
+  /// From then on this frame answers as the one that was saved, to the bit. It was made with the same arguments, and its
+  /// building is by now what that of the other one was then (capacities, see capacity_changed()). Throws
+  /// std::runtime_error where bytes are missing: it may then be destroyed only.
+  void load_state(std::istream& from);
 
  private:
   struct State;
