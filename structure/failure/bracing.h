@@ -14,6 +14,12 @@ class ClassicBracing {
   /// to brace them, in order of id (among them perhaps ones that are broken already).
   [[nodiscard]] const std::vector<JointId>& lose(JointId joint);
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [bracing_node, left, braced, none] = *this;
+    archive(bracing_node, left);  // posts at nodes follow from the building, and `none` stays empty
+  }
+
  private:
   std::vector<int> bracing_node_;             ///< per member joint: node that it braces, -1: none
   std::vector<int> left_;                     ///< per node: bracing joints that hold

@@ -33,6 +33,11 @@ struct BuckledPost {
   double compression = 0, bearable = 0;  ///< N; `bearable`: compression times factor
   Vec3 bulge = Vec3::Zero();             ///< where the critical shape moves it most, undeformed
 };
+template <class Archive>
+void serialize(Archive& archive, BuckledPost& buckled) {
+  auto& [post, joint, inside, factor, compression, bearable, bulge] = buckled;
+  archive(post, joint, inside, factor, compression, bearable, bulge);
+}
 
 class BucklingBracing {
  public:
@@ -50,6 +55,18 @@ class BucklingBracing {
 
   /// Length over which nothing braces the post sideways.
   [[nodiscard]] double unbraced_length(MemberId post) const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [building, statics, segments, bearings, applied, node_applied, node_solved, members_at, plates_at, supported,
+           tested, counters] = *this;
+    archive(tested, counters);  // what meets at nodes follows from the building
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, Counters& asked) {
+    auto& [screened, iterated, judged] = asked;
+    archive(screened, iterated, judged);
+  }
 
  private:
   [[nodiscard]] bool braced(NodeId node) const;

@@ -24,6 +24,11 @@ struct PlasticHinge {
   bool told = false;  ///< that it yielded
   [[nodiscard]] Sense sense() const { return static_cast<Sense>(axis + 1); }
 };
+template <class Archive>
+void serialize(Archive& archive, PlasticHinge& hinge) {
+  auto& [joint, axis, limit, plastic_rotation, held, yields, told] = hinge;
+  archive(joint, axis, limit, plastic_rotation, held, yields, told);
+}
 
 /// How a component gets from one state of rest to the next when hinges form on the way.
 struct PlasticPath {
@@ -33,6 +38,11 @@ struct PlasticPath {
   double direction = 1;    ///< of the way from the base: towards the static answer, or (-1) beyond it
   int events = 0;
 };
+template <class Archive>
+void serialize(Archive& archive, PlasticPath& path) {
+  auto& [active, returning, surplus, direction, events] = path;
+  archive(active, returning, surplus, direction, events);
+}
 
 class DuctileJoints {
  public:
@@ -55,6 +65,13 @@ class DuctileJoints {
   void move_base(int component, const std::vector<Vec6>& motion, double amount);
   /// Elastic energy of the difference between the answer and the base: half of what the loads of the way do along it.
   [[nodiscard]] double difference_energy(int component) const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [building, statics, segments, bearings, applied, hinges, paths, end_forces, loads, displacement,
+           plate_forces] = *this;
+    archive(hinges, paths, end_forces, loads, displacement, plate_forces);
+  }
 
  private:
   [[nodiscard]] std::vector<solver::BeamLoad> mixed_loads(MemberId member, double base, double now) const;

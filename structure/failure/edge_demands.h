@@ -20,6 +20,12 @@ class EdgeDemands {
   /// As panel_edge_demands().
   [[nodiscard]] const std::array<Vec6, 4>& read(PanelId panel);
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [bearings, loads, building, edges, states] = *this;
+    archive(states);  // where edges are follows from the building
+  }
+
  private:
   struct State {
     int version = -1;  ///< of the loads on the edges, when they were read
@@ -27,6 +33,11 @@ class EdgeDemands {
     std::array<Vec6, 4> corner_forces{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
     std::array<Vec6, 4> handed{}, demands{};
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, State& of_panel) {
+    auto& [version, membrane, corners_read, corner_forces, handed, demands] = of_panel;
+    archive(version, membrane, corners_read, corner_forces, handed, demands);
+  }
   const PanelBearings& bearings_;
   const FrameLoads& loads_;
   const Building& building_;

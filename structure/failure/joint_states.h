@@ -63,6 +63,12 @@ class JointStates {
     return true;
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [building, sudden, demand, reference, strength, largest, brittle, amplified, amplified_known] = *this;
+    archive(demand, reference, strength, largest, brittle, amplified, amplified_known);
+  }
+
  private:
   static std::size_t index(JointId joint) { return index_of(joint); }
   void forget(JointId joint) { amplified_known_[index(joint)] = 0; }

@@ -54,12 +54,24 @@ class PanelBearings {
   /// Panels of which the member bears an edge.
   [[nodiscard]] const std::vector<PanelId>& on(MemberId member) const { return panels_on_member_[index_of(member)]; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [building, edges, states, panels_on_member, panels_at_node, member_stands, member_part, node_part] = *this;
+    // Which panels lie on what follows from the building.
+    archive(states, member_stands, member_part, node_part);
+  }
+
  private:
   struct State {
     bool tracked = false, stands = false, membrane = false;
     std::array<bool, 4> holds{};
     std::array<double, 4> edge_length{unlimited, unlimited, unlimited, unlimited};
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, State& of_panel) {
+    auto& [tracked, stands, membrane, holds, edge_length] = of_panel;
+    archive(tracked, stands, membrane, holds, edge_length);
+  }
   [[nodiscard]] const State& state(PanelId panel) const { return states_[index_of(panel)]; }
   State& state(PanelId panel) { return states_[index_of(panel)]; }
   /// -1: stands; 0 and up: left in that part; -2: gone.

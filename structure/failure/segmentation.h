@@ -54,6 +54,15 @@ class Segmentation {
   [[nodiscard]] std::uint64_t searches() const { return searches_; }
   [[nodiscard]] std::uint64_t vertices_searched() const { return vertices_searched_; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [nodes, members, shell_vertex, shell_panels, edges, first_edge_of_joint, joint_holds, first_incident,
+           incident, label, degree, supported, segments, lost_support, mark, stamp, searches, vertices_searched] =
+        *this;
+    // The graph follows from the building. No search looks at marks of one before.
+    archive(edges, joint_holds, label, degree, supported, segments, lost_support, searches, vertices_searched);
+  }
+
  private:
   struct Edge {
     int first, second;
@@ -64,6 +73,16 @@ class Segmentation {
     int a_vertex = -1;  ///< one of its vertices, to walk from
     bool gone = false;
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Edge& edge) {
+    auto& [first, second, holds] = edge;
+    archive(holds);  // its vertices follow from the building
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, Segment& segment) {
+    auto& [supports, a_vertex, gone] = segment;
+    archive(supports, a_vertex, gone);
+  }
 
   [[nodiscard]] int vertex(MemberId member) const { return nodes_ + member.index; }
   void build_adjacency();

@@ -22,6 +22,12 @@ struct PlacedLoad {
   PanelForce on_shell;  ///< the force itself, where the panel is a shell
 };
 
+template <class Archive>
+void serialize(Archive& archive, PlacedLoad& placed) {
+  auto& [members, nodes, panel, edge_force, bending_compliance, on_shell] = placed;
+  archive(members, nodes, panel, edge_force, bending_compliance, on_shell);
+}
+
 /// Both put the same on the same parts.
 [[nodiscard]] bool same_load(const PlacedLoad& a, const PlacedLoad& b);
 
@@ -75,6 +81,16 @@ class FrameLoads {
   [[nodiscard]] Vec3 edge_force(PanelId panel, int edge) const;
   /// Another number whenever what the panel hands to its edges, or the edges that bear it, may have changed.
   [[nodiscard]] int edges_version(PanelId panel) const { return edges_version_[index_of(panel)]; }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [building, loads, bearings, shells, shell_gone, usual_gravity, gravity, handed, handing_members,
+           handing_nodes, events, contacts, holes, whole_panel_mass, member_mass, panel_mass, node_mass, edges_version,
+           changed_members, changed_nodes] = *this;
+    // The combination's loads, and masses of what is whole, follow from the building.
+    archive(shell_gone, usual_gravity, gravity, handed, handing_members, handing_nodes, events, contacts, holes,
+            panel_mass, edges_version, changed_members, changed_nodes);
+  }
 
  private:
   [[nodiscard]] solver::BeamLoad under_gravity(MemberId member, solver::BeamLoad load) const;

@@ -18,6 +18,11 @@ struct LoadWork {
     return *this;
   }
 };
+template <class Archive>
+void serialize(Archive& archive, LoadWork& work) {
+  auto& [gravity, other] = work;
+  archive(gravity, other);
+}
 
 class MemberShape {
  public:
@@ -40,6 +45,21 @@ class MemberShape {
   /// Internal forces of this state through the strains that those of another state make in this member, halved; without
   /// end springs.
   [[nodiscard]] double mutual_energy(const MemberShape& other) const;
+
+  /// What it was made of; make() makes it again.
+  template <class Archive>
+  void write(Archive& archive) const {
+    const auto& [beam, end_forces, rigid_ends, loads, diagram] = *this;
+    archive(beam, end_forces, rigid_ends, loads);  // of which the diagram follows
+  }
+  template <class Archive>
+  [[nodiscard]] static MemberShape make(Archive& archive) {
+    solver::Beam beam;
+    solver::Vec12 end_forces, rigid_ends;
+    std::vector<solver::BeamLoad> loads;
+    archive(beam, end_forces, rigid_ends, loads);
+    return {beam, end_forces, rigid_ends, std::move(loads)};
+  }
 
  private:
   [[nodiscard]] std::vector<double> cuts(std::span<const solver::BeamLoad> loads) const;

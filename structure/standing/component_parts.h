@@ -34,6 +34,12 @@ struct ComponentParts {
     return place.member.valid() ? statics_.component(place.member) : of(place.panel);
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [breakable, of_edges, of_panels, building, statics] = *this;
+    archive(breakable);  // the others follow from the building
+  }
+
   // Per component, each in order of id:
   std::vector<std::vector<JointId>> joints;  ///< with a capacity
   std::vector<std::vector<JointId>> edges;   ///< those of them that are edges of panels

@@ -41,6 +41,12 @@ class ContactLoads {
   /// In order of key.
   [[nodiscard]] const std::map<std::int64_t, ContactLoad>& all() const { return all_; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [response, loads, all] = *this;
+    archive(all);
+  }
+
  private:
   template <class Test>
   void drop_if(const Test& test) {

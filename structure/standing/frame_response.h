@@ -48,6 +48,12 @@ class FrameResponse {
   /// m: how far the place has moved along the direction in the static answer.
   [[nodiscard]] double displacement_along(const ContactPlace& place, const Vec3& direction) const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [building, from, critical_energies, certain_masses] = *this;
+    archive(critical_energies, certain_masses);
+  }
+
  private:
   /// Response to a force, and where the force is placed.
   struct Shape {

@@ -45,6 +45,12 @@ class JointAnswers {
   /// Read from the solver; the joint must hold.
   [[nodiscard]] Vec6 solved_demand(JointId joint) const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [state, yielding, edge_loads, demands_behind, selective_from] = *this;
+    archive(edge_loads, demands_behind, selective_from);
+  }
+
  private:
   class Watch;
   [[nodiscard]] bool may_restrict(int component) const;

@@ -230,13 +230,14 @@ void PanelSuperelement::fracture(const PanelRemains& remains) {
     }
   }
   for (std::size_t k = 0; k < shells.size(); ++k) share_[k] = std::max(0.0, 1 - lost_[k] / fracture::area(elements[k]));
-  keep_shares();
+  keep_shares(gone());
 }
 
-void PanelSuperelement::keep_shares() {
+void PanelSuperelement::keep_shares(const std::vector<int>& lost_elements) {
   std::vector<double> standing = share_;
-  for (std::size_t k = 0; k < standing.size(); ++k)
-    if (standing[k] < least_share || !patch_->stands(static_cast<int>(k))) standing[k] = 0;
+  for (double& share : standing)
+    if (share < least_share) share = 0;
+  for (const int element : lost_elements) standing[static_cast<std::size_t>(element)] = 0;
   patch_->keep(standing);
   load_evenly();
 }
@@ -271,20 +272,38 @@ void PanelSuperelement::load_evenly() {
 
 void PanelSuperelement::release_edge(int edge) {
   holds_[static_cast<std::size_t>(edge)] = false;
-  const auto& nodes = bearing_edge_[static_cast<std::size_t>(edge)];
+  condense_anew(gone());
+}
+
+/// By what holds it; these elements are not there.
+void PanelSuperelement::condense_anew(const std::vector<int>& lost_elements) {
   solver::Superelement::Patch patch = patch_->patch();
-  std::erase_if(patch.supports, [&](const solver::Support& support) {
-    return std::find(nodes.begin(), nodes.end(), support.node) != nodes.end();
-  });
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    if (holds_[edge]) continue;
+    const auto& nodes = bearing_edge_[edge];
+    std::erase_if(patch.supports, [&](const solver::Support& support) {
+      return std::find(nodes.begin(), nodes.end(), support.node) != nodes.end();
+    });
+  }
   patch.kept.clear();
   for (std::size_t n = 0; n < node_.size(); ++n)
     if (held_at(n)) patch.kept.push_back(node_[n]);
-  std::vector<int> gone;
-  for (std::size_t k = 0; k < patch.shells.size(); ++k)
-    if (!patch_->stands(static_cast<int>(k))) gone.push_back(static_cast<int>(k));
-  patch_.emplace(std::move(patch), gone);
+  patch_.emplace(std::move(patch), lost_elements);
   find_places();
-  keep_shares();
+  keep_shares(gone());
+}
+
+std::vector<int> PanelSuperelement::gone() const {
+  std::vector<int> elements;
+  for (std::size_t k = 0; k < share_.size(); ++k)
+    if (!patch_->stands(static_cast<int>(k))) elements.push_back(static_cast<int>(k));
+  return elements;
+}
+
+/// Of one that has lost nothing yet.
+void PanelSuperelement::restore(const std::vector<int>& lost_elements) {
+  if (!std::all_of(holds_.begin(), holds_.end(), [](bool held) { return held; })) return condense_anew(lost_elements);
+  if (!lost_.empty()) keep_shares(lost_elements);
 }
 
 Eigen::MatrixXd PanelSuperelement::stiffness() const { return of_all_nodes(patch_->stiffness()); }

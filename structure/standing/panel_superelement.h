@@ -25,6 +25,11 @@ using Mat24 = Eigen::Matrix<double, 24, 24>;
 struct PanelForce {
   Vec3 point = Vec3::Zero(), force = Vec3::Zero();
 };
+template <class Archive>
+void serialize(Archive& archive, PanelForce& one) {
+  auto& [point, force] = one;
+  archive(point, force);
+}
 /// What acts on a panel between its corners.
 struct PanelLoading {
   Vec3 traction = Vec3::Zero();  ///< global, per area of what is there
@@ -79,8 +84,25 @@ class PanelSuperelement {
   /// In either face, at the centres of the elements that stand.
   [[nodiscard]] PanelStress worst_stress(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const;
 
+  /// Of one that was made alike: what has been lost. The rest is condensed anew.
+  template <class Archive>
+  void save(Archive& archive) const {
+    const auto& [axes, origin, turn, thickness, patch, operators, element, unit_traction, lost, holes_counted, share,
+                 node, edge, place, holds, bearing_edge] = *this;
+    archive(lost, holes_counted, share, holds, gone());
+  }
+  template <class Archive>
+  void load(Archive& archive) {
+    std::vector<int> lost_elements;
+    archive(lost_, holes_counted_, share_, holds_, lost_elements);
+    restore(lost_elements);
+  }
+
  private:
-  void keep_shares();
+  void restore(const std::vector<int>& lost_elements);
+  void condense_anew(const std::vector<int>& lost_elements);
+  [[nodiscard]] std::vector<int> gone() const;
+  void keep_shares(const std::vector<int>& lost_elements);
   void begin(solver::Superelement::Patch patch);
   void load_evenly();
   void collect_nodes(const Panel& panel);

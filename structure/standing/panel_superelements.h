@@ -15,7 +15,8 @@ namespace topple::structure {
 
 class PanelSuperelements {
  public:
-  explicit PanelSuperelements(const Building& building) : building_(building), of_panel_(building.panels.size()) {
+  explicit PanelSuperelements(const Building& building)
+      : building_(building), of_panel_(building.panels.size()), copied_(building.panels.size(), 0) {
     for (std::size_t p = 0; p < building.panels.size(); ++p)
       if (building.panels[p].model == PanelModel::membrane && !building.panels[p].openings.empty()) make(PanelId(p));
     bool any = false;
@@ -34,19 +35,56 @@ class PanelSuperelements {
   /// what its hole changes.
   void add(PanelId panel) {
     if (of(panel)) return;
-    auto& whole = whole_[shape(panel)];
-    if (!whole) whole = std::make_unique<PanelSuperelement>(building_, panel, operators_);
+    Whole& whole = whole_[shape(panel)];
+    if (!whole.mesh) whole = {panel, std::make_unique<PanelSuperelement>(building_, panel, operators_)};
   }
   PanelSuperelement& make(PanelId panel) {
     auto& own = of_panel_[index_of(panel)];
     if (own) return *own;
     const auto like = building_[panel].openings.empty() ? whole_.find(shape(panel)) : whole_.end();
-    own = like == whole_.end() ? std::make_unique<PanelSuperelement>(building_, panel, operators_)
-                               : std::make_unique<PanelSuperelement>(*like->second, building_, panel);
-    return *own;
+    return like == whole_.end() ? make_alone(panel) : make_like(panel, *like->second.mesh);
+  }
+
+  template <class Archive>
+  void save(Archive& archive) const {
+    const auto& [building, operators, of_panel, copied, whole] = *this;
+    archive(whole.size());
+    for (const auto& [shape, one] : whole) archive(one.of);
+    for (std::size_t p = 0; p < of_panel.size(); ++p) {
+      archive(of_panel[p] != nullptr, copied[p]);
+      if (of_panel[p]) archive(*of_panel[p]);
+    }
+  }
+  /// All come from what their panels are; what happened to them since is theirs.
+  template <class Archive>
+  void load(Archive& archive) {
+    std::size_t count = 0;
+    archive(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      PanelId of;
+      archive(of);
+      Whole& whole = whole_[shape(of)];
+      if (whole.of != of) whole = {of, std::make_unique<PanelSuperelement>(building_, of, operators_)};
+    }
+    for (std::size_t p = 0; p < of_panel_.size(); ++p) {
+      bool is_there = false;
+      char is_copied = 0;
+      archive(is_there, is_copied);
+      if (!is_there) continue;
+      const PanelId panel(p);
+      if (!of_panel_[p]) is_copied != 0 ? make_like(panel, *whole_.at(shape(panel)).mesh) : make_alone(panel);
+      archive(*of_panel_[p]);
+    }
   }
 
  private:
+  PanelSuperelement& make_alone(PanelId panel) {
+    return *(of_panel_[index_of(panel)] = std::make_unique<PanelSuperelement>(building_, panel, operators_));
+  }
+  PanelSuperelement& make_like(PanelId panel, const PanelSuperelement& whole) {
+    copied_[index_of(panel)] = 1;
+    return *(of_panel_[index_of(panel)] = std::make_unique<PanelSuperelement>(whole, building_, panel));
+  }
   /// Material, thickness, edges and diagonals, to a nanometre.
   using Shape = std::array<std::int64_t, 8>;
   [[nodiscard]] Shape shape(PanelId panel) const {
@@ -80,7 +118,12 @@ class PanelSuperelements {
   const Building& building_;
   std::shared_ptr<ShellOperators> operators_ = std::make_shared<ShellOperators>();
   std::vector<std::unique_ptr<PanelSuperelement>> of_panel_;
-  std::map<Shape, std::unique_ptr<PanelSuperelement>> whole_;  ///< membranes without openings
+  std::vector<char> copied_;  ///< per panel: its own is a copy of the whole one of its shape
+  struct Whole {
+    PanelId of;
+    std::unique_ptr<PanelSuperelement> mesh;
+  };
+  std::map<Shape, Whole> whole_;  ///< membranes without openings
 };
 
 }  // namespace topple::structure

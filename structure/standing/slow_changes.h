@@ -20,6 +20,12 @@ class SlowChanges {
   /// Solves what changed slowly; what changed suddenly before is read as such.
   void lay();
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [state, answers, yielding, breaks, softened] = *this;
+    archive(softened);
+  }
+
  private:
   void laid(int component);
 

@@ -51,6 +51,12 @@ class SolverContents {
   [[nodiscard]] const std::vector<std::vector<solver::BeamLoad>>& member_loads() const { return member_loads_; }
   [[nodiscard]] const std::vector<Vec6>& node_loads() const { return node_loads_; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [statics, holds, nodes_of, member_loads, node_loads] = *this;
+    archive(holds, nodes_of, member_loads, node_loads);
+  }
+
  private:
   FrameStatics& statics_;
   std::vector<char> holds_;    ///< per node

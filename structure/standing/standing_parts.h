@@ -33,6 +33,12 @@ class StandingParts {
   /// True when all of these members that stand are one segment.
   [[nodiscard]] bool one_segment(const std::vector<MemberId>& members) const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [building, edges, graph, panels, numbers] = *this;
+    archive(graph, panels, numbers);
+  }
+
  private:
   [[nodiscard]] const std::vector<int>& numbers() const;
 

@@ -14,7 +14,12 @@ struct StandingFrame::State : StructuralState {
 
   void settle(int generations);
 
+  // standing_archive.cpp
+  template <class Archive>
+  void serialize(Archive& archive);
+
   // Motion (standing_sway.cpp).
+  void make_motion(const MotionSettings& settings);
   void move_on(const std::function<void()>& after_substep);
   void end_motion();
   void soften_at_rest();

@@ -44,6 +44,10 @@ struct StructuralState {
   /// The panel is as stiff as its superelement is now; `before`: what its nodes felt of it until now.
   void update_stiffness(PanelId panel, const Eigen::MatrixXd& before);
 
+  /// But for motion, which is made and loaded once all that it looks at is there.
+  template <class Archive>
+  void serialize(Archive& archive);
+
   const Building& building;
   CombinationId combination;  ///< of its loads
   FailureRules rules;

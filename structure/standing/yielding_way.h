@@ -66,6 +66,12 @@ class YieldingWay {
   /// Senses of joints that came to their capacity for the first time, handed out once.
   [[nodiscard]] std::vector<JointBreak> extract_yielded() { return std::exchange(yielded_, {}); }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [building, from, ductile, yielded] = *this;
+    archive(ductile, yielded);
+  }
+
  private:
   /// Two states on the way closer than this (relative) are one: symmetric joints differ by rounding.
   static constexpr double same_place = 1e-9;

@@ -28,6 +28,12 @@ class BreakLog {
   void start_generations() { generation_ = 0; }
   void next_generation() { ++generation_; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [parts, joints, lines, generation] = *this;
+    archive(lines, generation);
+  }
+
  private:
   const StandingParts& parts_;
   JointStates& joints_;

@@ -25,6 +25,12 @@ class Departures {
   /// Handed out once, in the order in which they left.
   [[nodiscard]] std::vector<Detached> extract() { return std::exchange(detached_, {}); }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [state, detached] = *this;
+    archive(detached);
+  }
+
  private:
   void lose_edges(PanelId panel);
 

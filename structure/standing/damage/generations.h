@@ -36,6 +36,13 @@ class Generations {
   /// A post of the component that gives way sideways in the static answer breaks.
   void snap_what_buckles(int component);
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [to, buckling, buckled] = *this;
+    if (buckling) archive(*buckling);  // the rules say whether it is there
+    archive(buckled);
+  }
+
  private:
   [[nodiscard]] bool solve_changed();
   void solved(int component, const std::optional<FrameMechanism>& mechanism);

@@ -13,8 +13,8 @@ void QueuedChanges::act(const RemoveSupport& one) {
 }
 
 void QueuedChanges::act(const EventLoad& one) {
-  if (state_.in_solver.holds(one.node)) state_.account.change(one.node).add_load(one.node, one.load);
-  state_.loads.add_load(one.node, one.load);
+  if (state_.in_solver.holds(one.node)) state_.account.change(one.node).add_load(one.node, one.force);
+  state_.loads.add_load(one.node, one.force);
 }
 
 void QueuedChanges::act(const Gravity& one) {

@@ -19,7 +19,7 @@ class QueuedChanges {
   };
   struct EventLoad {
     NodeId node;
-    Vec6 load;
+    Vec6 force;
   };
   struct Gravity {
     Vec3 gravity;
@@ -34,6 +34,32 @@ class QueuedChanges {
   [[nodiscard]] bool empty() const { return waiting_.empty(); }
   /// All of them act, in the order in which they were added.
   void act();
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [state, damage, waiting] = *this;
+    archive(waiting);
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, BreakJoint& one) {
+    auto& [joint, cause] = one;
+    archive(joint, cause);
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, RemoveSupport& one) {
+    auto& [node] = one;
+    archive(node);
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, EventLoad& one) {
+    auto& [node, force] = one;
+    archive(node, force);
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, Gravity& one) {
+    auto& [gravity] = one;
+    archive(gravity);
+  }
 
  private:
   void act(const BreakJoint& one) { damage_.break_joint(one.joint, one.cause); }

@@ -44,6 +44,13 @@ class StandingDamage {
   /// Joints of posts that have lost the last of what braced them.
   [[nodiscard]] std::vector<JointId> extract_unbraced();
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [to, bracing, half_held, unbraced] = *this;
+    if (bracing) archive(*bracing);  // the rules say whether it is there
+    archive(half_held, unbraced);
+  }
+
  private:
   void lose_member_joint(JointId joint, int line);
   void break_bare_edges(PanelId panel, const PanelRemains& remains);

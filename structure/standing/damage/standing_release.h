@@ -29,6 +29,12 @@ class StandingRelease {
   /// from its first end.
   void cut_in_two(MemberId post, double inside);
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [to, in_mechanism, hanging, cut_inside] = *this;
+    archive(in_mechanism, hanging, cut_inside);
+  }
+
  private:
   void extract_unanchored();
   void leave(const std::vector<Segmentation::Part>& loose, std::vector<Detached>& leaving);

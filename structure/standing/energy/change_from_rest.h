@@ -63,6 +63,35 @@ class ChangeFromRest {
   /// What it told of becomes part of the state of rest: joints that broke, loads that were written.
   void commit_to(StateOfRest& rest) const;
 
+  template <class Archive>
+  void save(Archive& archive) const {
+    const auto& [now, rest, shapes, openings, supports, membranes, softened, member_loads, node_loads, handed, panels,
+                 sums] = *this;
+    archive(shapes.size());
+    for (const auto& [member, shape] : shapes) {
+      archive(member);
+      shape.write(archive);
+    }
+    archive(openings, supports, membranes, softened, member_loads, node_loads, handed, panels, sums);
+  }
+  template <class Archive>
+  void load(Archive& archive) {
+    std::size_t count = 0;
+    archive(count);
+    shapes_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      MemberId member;
+      archive(member);
+      shapes_.emplace(member, MemberShape::make(archive));
+    }
+    archive(openings_, supports_, membranes_, softened_, member_loads_, node_loads_, handed_, panels_, sums_);
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, Sums& sums) {
+    auto& [left, contact_left, freed, dissipated] = sums;
+    archive(left, contact_left, freed, dissipated);
+  }
+
  private:
   struct Opening {
     JointId joint;
@@ -78,6 +107,21 @@ class ChangeFromRest {
     PanelId panel;
     std::vector<Vec6> forces;  ///< at its nodes
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Opening& opening) {
+    auto& [joint, line, force, rigid_end] = opening;
+    archive(joint, line, force, rigid_end);
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, SupportLoss& loss) {
+    auto& [node, reaction] = loss;
+    archive(node, reaction);
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, MembraneLoss& loss) {
+    auto& [panel, forces] = loss;
+    archive(panel, forces);
+  }
   /// Work of a load that several parts bear, by whether they stand.
   struct Shares {
     LoadWork standing, left;

@@ -48,12 +48,37 @@ class EnergyAccount {
   /// J, of the component in its last state of rest.
   [[nodiscard]] double elastic_at_rest(int component) const { return rest(component).elastic; }
 
+  template <class Archive>
+  void save(Archive& archive) const {
+    const auto& [now, rest, started, elastic_at_start, start, past, rests, changes] = *this;
+    archive(now, rest, started, elastic_at_start, start, past, rests);
+    for (const std::optional<ChangeFromRest>& change : changes) {
+      archive(change.has_value());
+      if (change) archive(*change);
+    }
+  }
+  template <class Archive>
+  void load(Archive& archive) {
+    archive(now_, rest_, started_, elastic_at_start_, start_, past_, rests_);
+    for (std::optional<ChangeFromRest>& change : changes_) {
+      bool under_way = false;
+      archive(under_way);
+      change.reset();
+      if (under_way) archive(change.emplace(now_, rest_));
+    }
+  }
+
  private:
   /// Sums over what stood in the state of rest, J.
   struct Rest {
     LoadWork work;
     double contact = 0, elastic = 0;
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Rest& sums) {
+    auto& [work, contact, elastic] = sums;
+    archive(work, contact, elastic);
+  }
   const Rest& rest(int component) const;
 
   SolvedFrame now_;

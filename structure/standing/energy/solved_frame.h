@@ -41,5 +41,10 @@ struct SolvedFrame {
   /// Loads times displacements of all that stands of a component, contacts apart, J.
   [[nodiscard]] LoadWork load_work(int component) const;
 };
+template <class Archive>
+void serialize(Archive& archive, SolvedFrame& frame) {
+  auto& [building, segments, bearings, loads, statics, node_solved, applied, gravity] = frame;
+  archive(gravity);
+}
 
 }  // namespace topple::structure

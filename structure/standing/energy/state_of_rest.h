@@ -14,6 +14,11 @@ struct PanelAtRest {
   std::vector<Vec6> forces;  ///< at its nodes (Panel::all_nodes()), global; those of what is left of it
   double energy = 0;         ///< J, of all that it was
 };
+template <class Archive>
+void serialize(Archive& archive, PanelAtRest& panel) {
+  auto& [forces, energy] = panel;
+  archive(forces, energy);
+}
 
 class StateOfRest {
  public:
@@ -52,6 +57,12 @@ class StateOfRest {
   /// Elastic energy, from internal forces; `changed`: panels whose stiffness is no more what it was.
   [[nodiscard]] double elastic(int component, const std::map<PanelId, PanelAtRest>& changed) const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [now, members, nodes, springs, contacts, plastic_rotations] = *this;
+    archive(members, nodes, springs, contacts, plastic_rotations);
+  }
+
  private:
   /// A support that gives.
   struct Spring {
@@ -72,6 +83,21 @@ class StateOfRest {
     Vec6 event_loads = Vec6::Zero();  ///< those of events
     bool stands = false;
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Spring& spring) {
+    auto& [node, stiffness] = spring;
+    archive(node, stiffness);
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, OfMember& member) {
+    auto& [end_forces, elastic_end_forces, loads, own_loads, stiffness, stands, holds] = member;
+    archive(end_forces, elastic_end_forces, loads, own_loads, stiffness, stands, holds);
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, OfNode& node) {
+    auto& [displacement, loads, event_loads, stands] = node;
+    archive(displacement, loads, event_loads, stands);
+  }
   void record_contacts(int component);
 
   const SolvedFrame& now_;

@@ -27,6 +27,12 @@ class ComponentDamping {
   /// rad/s, the lowest of a component that has begun to move, as its damping was found.
   [[nodiscard]] double first_frequency(int component) const { return known_.at(component).first_frequency; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [from, model, settings, known] = *this;
+    archive(known);
+  }
+
  private:
   struct Known {
     double first_frequency = 1;  ///< rad/s; of what cannot move any
@@ -34,6 +40,11 @@ class ComponentDamping {
     std::size_t holding = 0;  ///< its joints that held
     std::size_t looked = 0;   ///< the same at the last look for rest
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Known& known) {
+    auto& [first_frequency, damping, holding, looked] = known;
+    archive(first_frequency, damping, holding, looked);
+  }
   [[nodiscard]] std::size_t holding(int component) const;
   [[nodiscard]] double share(int component) const;
   [[nodiscard]] Known find(int component, const solver::FrameModel& frame, const solver::MassModel& masses,

@@ -33,6 +33,17 @@ class MotionMasses {
   [[nodiscard]] double own(MemberId member) const;
   [[nodiscard]] const Shares& shares(PanelId panel) const { return shares_[index(panel)]; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [building, loads, bearings, shares, version, hung_members, hung_nodes] = *this;
+    archive(shares, version, hung_members, hung_nodes);
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, Shares& shares) {
+    auto& [members, nodes] = shares;
+    archive(members, nodes);
+  }
+
  private:
   template <class Tag>
   static std::size_t index(Id<Tag> id) {

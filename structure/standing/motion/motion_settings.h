@@ -29,6 +29,14 @@ struct MotionSettings {
   double falling_turn = 0.02;
 };
 
+template <class Archive>
+void serialize(Archive& archive, MotionSettings& settings) {
+  auto& [longest_substep, spectral_radius, metal_damping, other_damping, metal_modulus, rest_utilisation,
+         rest_displacement, rest_looks, largest_turn, falling_turn] = settings;
+  archive(longest_substep, spectral_radius, metal_damping, other_damping, metal_modulus, rest_utilisation,
+          rest_displacement, rest_looks, largest_turn, falling_turn);
+}
+
 #ifdef TOPPLE_VARIED_CONSTANTS  // benchmarks/constants: each halved and doubled
 inline MotionSettings motion_settings{};
 #else

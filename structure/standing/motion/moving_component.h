@@ -2,12 +2,25 @@
 // A component that moves, as StandingMotion keeps it.
 #include <optional>
 
+#include "archive/nested_state.h"
 #include "standing/motion/moving_law.h"
 #include "standing/motion/standing_motion.h"
 
 namespace topple::structure {
 
 struct StandingMotion::Moving {
+  /// What its frame was made of when it began to move.
+  struct Beginning {
+    solver::FrameModel model;
+    solver::MassModel masses;
+    solver::RayleighDamping damping;
+  };
+  template <class Archive>
+  friend void serialize(Archive& archive, Beginning& begun) {
+    auto& [model, masses, damping] = begun;
+    archive(model, masses, damping);
+  }
+  Beginning beginning;
   std::unique_ptr<solver::FrameDynamics> frame;
   std::unique_ptr<MovingLaw> law;
   double elastic_at_start = 0;
@@ -23,7 +36,20 @@ struct StandingMotion::Moving {
     std::optional<Vec3> gave;  ///< N s, to chunks since then
     Eigen::VectorXd impulses;  ///< at its nodes: what it lacks of that motion's momentum now; empty: none
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, ChangedShell& shell) {
+    auto& [motion, had, gave, impulses] = shell;
+    archive(motion, had, gave, impulses);
+  }
   std::map<PanelId, ChangedShell> changed_shells;
+
+  /// Once the frame is made, which takes the beginning. The law gets its hinges in every substep.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [begun, made, by_law, elastic, strain_between, largest_turn, work_of_left, looked_at, masses, shells] = *this;
+    NestedState state{*made};
+    archive(state, elastic, strain_between, largest_turn, work_of_left, looked_at, masses, shells);
+  }
 };
 
 }  // namespace topple::structure

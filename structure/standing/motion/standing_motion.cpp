@@ -27,8 +27,11 @@ StandingMotion::StandingMotion(const MotionSources& sources, const MotionSetting
       model_(sources, masses_),
       damping_(sources, model_, settings),
       momentum_(sources, masses_, *this) {}
-StandingMotion::~StandingMotion() {
+StandingMotion::~StandingMotion() { forget_all(); }
+
+void StandingMotion::forget_all() {
   for (const auto& [c, moving] : moving_) from_.statics.follow(c, nullptr);
+  moving_.clear();
 }
 
 std::vector<int> StandingMotion::moving() const {
@@ -133,28 +136,36 @@ void StandingMotion::store_plastic_rotations(int c, const Moving& moving) const 
   }
 }
 
-void StandingMotion::start(int c) {
-  if (moves(c)) return;
-  const solver::FrameModel model = model_.frame(c);
-  const solver::MassModel masses = model_.node_masses(c);
-  const std::vector<Vec6> rest = model_.at_rest(c);
-
-  Moving moving;
+void StandingMotion::make_frame(int c, Moving& moving) const {
+  const auto& [model, masses, damping] = moving.beginning;
   solver::DynamicOptions options;
   options.substep = substep_;
   options.spectral_radius = settings_.spectral_radius;
   options.analysis.threads = from_.threads;
-  options.damping = damping_.start(c, model, masses, rest);
+  options.damping = damping;
   options.second_order = from_.second_order;
   moving.frame = std::make_unique<solver::FrameDynamics>(model, masses, options);
+  moving.law = std::make_unique<MovingLaw>(from_, c);
+}
+
+void StandingMotion::start(int c) {
+  if (moves(c)) return;
+  const std::vector<Vec6> rest = model_.at_rest(c);
+
+  auto made = std::make_unique<Moving>();
+  Moving& moving = *made;
+  auto& [model, masses, damping] = moving.beginning;
+  model = model_.frame(c);
+  masses = model_.node_masses(c);
+  damping = damping_.start(c, model, masses, rest);
+  make_frame(c, moving);
   model_.lay_on(c, *moving.frame);
   moving.frame->set_state(rest, std::vector<Vec6>(rest.size(), Vec6::Zero()));
   moving.elastic_at_start = moving.frame->energy().elastic;
   moving.between_nodes = from_.account.elastic_at_rest(c) - moving.elastic_at_start;
-  moving.law = std::make_unique<MovingLaw>(from_, c);
   for (const MemberId member : from_.statics.members(c)) moving.mass.push_back(masses_.of(member));
   from_.statics.follow(c, moving.frame.get());
-  moving_.emplace(c, std::make_unique<Moving>(std::move(moving)));
+  moving_.emplace(c, std::move(made));
   ++starts_;
 }
 

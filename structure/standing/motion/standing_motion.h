@@ -23,6 +23,11 @@ struct MotionEnergy {
   double external_work = 0;          ///< of loads, on what moves now
   double struck = 0, freed = 0, dissipated = 0;
 };
+template <class Archive>
+void serialize(Archive& archive, MotionEnergy& energy) {
+  auto& [kinetic, elastic_change, damped, numerical, external_work, struck, freed, dissipated] = energy;
+  archive(kinetic, elastic_change, damped, numerical, external_work, struck, freed, dissipated);
+}
 
 class StandingMotion {
  public:
@@ -111,8 +116,19 @@ class StandingMotion {
 
   [[nodiscard]] MotionEnergy energy() const;
 
+  [[nodiscard]] const MotionSettings& settings() const { return settings_; }
+  // motion_archive.h
+  template <class Archive>
+  void save(Archive& archive) const;
+  /// The statics are by now what they were.
+  template <class Archive>
+  void load(Archive& archive);
+
  private:
   struct Moving;
+  /// The frame and its law, by its beginning.
+  void make_frame(int component, Moving& moving) const;
+  void forget_all();
   void store_plastic_rotations(int component, const Moving& moving) const;
 
   MotionSources from_;

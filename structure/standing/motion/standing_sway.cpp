@@ -34,15 +34,18 @@ void StandingFrame::let_move(double dt, const MotionRules& rules) {
   if (const auto reason = why_it_stays_at_rest(state.building))
     throw InputError(state.building.file + ": what stands cannot move: " + *reason);
   if (state.rules.sudden != 1) throw std::invalid_argument("what moves has no factor of a sudden loss: it must be 1");
-  state.motion = std::make_unique<StandingMotion>(
-      MotionSources{state.building, state.parts, state.loads, state.statics, state.joints, state.yielding,
-                    state.components, state.shells, state.account, state.in_solver.held_nodes(),
-                    state.rules.second_order, state.threads},
-      settings_of(rules, dt));
-  state.statics.before_changes([&state](int c) {
-    if (!state.slowly && state.in_solver.nodes_of(c) > 0) state.motion->start(c);
-  });
+  state.make_motion(settings_of(rules, dt));
   state.substeps = state.motion->set_step(dt);
+}
+
+void StandingFrame::State::make_motion(const MotionSettings& settings) {
+  motion = std::make_unique<StandingMotion>(
+      MotionSources{building, parts, loads, statics, joints, yielding, components, shells, account,
+                    in_solver.held_nodes(), rules.second_order, threads},
+      settings);
+  statics.before_changes([this](int c) {
+    if (!slowly && in_solver.nodes_of(c) > 0) motion->start(c);
+  });
 }
 
 std::vector<JointBreak> StandingFrame::move(const std::function<void()>& after_substep) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "archive/nested_state.h"
 #include "standing/panel_superelements.h"
 #include "standing/statics/frame_numbers.h"
 #include "topple/solver/frame_dynamics.h"
@@ -99,6 +100,12 @@ class FrameAnswers : public FrameNumbers {
   /// Of all components.
   [[nodiscard]] solver::ReanalysisCounters counters() const;
 
+  /// `stiffness_diagonal_` is of the undamaged building, the rules say whether `second_order_`.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(stiff_, end_forces_, member_stiffness_, components_, hinges_, member_loads_, node_loads_);
+  }
+
  protected:
   struct Component {
     std::unique_ptr<solver::Reanalysis> analysis;
@@ -106,6 +113,12 @@ class FrameAnswers : public FrameNumbers {
     bool unwatched = false;        ///< the watch has not read all of the answer
     mutable bool partial = false;  ///< end_forces_ of some members are behind
     solver::FrameDynamics* moving = nullptr;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      auto& [solved_by, has_changed, has_gone, has_diverged, is_unwatched, is_partial, followed_by] = *this;
+      NestedState nested{*solved_by};
+      archive(nested, has_changed, has_gone, has_diverged, is_unwatched, is_partial);  // motion begins to follow anew
+    }
   };
   /// Of a member with hinges: what those that yield hold, how far those that unload have slipped, and the stiffness
   /// of both ends with the yielding ones released.
@@ -113,6 +126,11 @@ class FrameAnswers : public FrameNumbers {
     std::array<Vec6, 2> stiffness;
     solver::Vec12 held = solver::Vec12::Zero(), plastic_rotation = solver::Vec12::Zero();
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Hinges& hinges) {
+    auto& [stiffness, held, plastic_rotation] = hinges;
+    archive(stiffness, held, plastic_rotation);
+  }
 
   FrameAnswers(const Building& building, const Frame& frame, std::vector<solver::FrameModel> models, int threads);
   [[nodiscard]] const Component& state(int component) const { return components_[static_cast<std::size_t>(component)]; }

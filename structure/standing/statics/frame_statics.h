@@ -79,6 +79,13 @@ class FrameStatics : public FrameAnswers {
   /// Nothing of the component stands: there is nothing to solve.
   void forget(int component);
 
+  /// Whoever asks to be told before_changes() does so anew.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    FrameAnswers::serialize(archive);
+    archive(geometric_);
+  }
+
  private:
   class Adapter;
   FrameStatics(const Building& building, const Frame& frame, const PanelSuperelements& shells, int threads);
