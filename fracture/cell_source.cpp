@@ -28,6 +28,7 @@ class GridCells : public CellSource {
     }
     return cells;
   }
+  [[nodiscard]] std::vector<bool>& broken_cells() override { return is_broken_; }
 
  protected:
   explicit GridCells(int size) : is_broken_(static_cast<std::size_t>(size), false) {}
@@ -81,6 +82,7 @@ class LocalCells final : public CellSource {
     check(settings);
   }
   [[nodiscard]] std::unique_ptr<CellSource> clone() const override { return std::make_unique<LocalCells>(*this); }
+  [[nodiscard]] std::vector<bool>& broken_cells() override { return none_; }
 
   std::vector<Polygon> broken(const Vec2& at, std::optional<double> radius, double nearest, double farthest,
                               std::uint64_t number) override {
@@ -93,6 +95,7 @@ class LocalCells final : public CellSource {
  private:
   LocalDamageSettings settings_;
   std::uint64_t seed_;
+  std::vector<bool> none_;  ///< broken_cells()
 };
 
 }  // namespace

@@ -17,6 +17,8 @@ class CellSource {
   virtual std::vector<Polygon> broken(const Vec2& at, std::optional<double> radius, double nearest, double farthest,
                                       std::uint64_t number) = 0;
   [[nodiscard]] virtual std::unique_ptr<CellSource> clone() const = 0;
+  /// All that hits change: whether each cell is broken. Empty for a method that makes its cells anew for each hit.
+  [[nodiscard]] virtual std::vector<bool>& broken_cells() = 0;
 };
 
 /// Throws std::invalid_argument when the settings or the outline do not suit the method.

@@ -52,6 +52,14 @@ class HalfEdges : public HalfEdgeNumbers {
   /// Checks the whole structure: twins, orientation, labels against fixed edges. For tests.
   [[nodiscard]] bool valid() const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [points, some_edge, edges, labels, free_triangles, free_vertices, touched, is_touched, visited, visit] =
+        *this;
+    archive(points, some_edge, edges, labels, free_triangles, free_vertices, touched, is_touched);
+    // The last two: each search begins with nothing visited.
+  }
+
  protected:
   /// Two triangles with the label 0.
   HalfEdges(const Vec2& lower, const Vec2& upper);
@@ -79,6 +87,11 @@ class HalfEdges : public HalfEdgeNumbers {
     int tag = none;
     int flags = 0;
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, HalfEdge& edge) {
+    auto& [origin, twin, tag, flags] = edge;
+    archive(origin, twin, tag, flags);
+  }
   static constexpr int is_fixed = 1, on_loop = 2;  ///< flags; the second while the inside of a loop is searched
 
   int new_vertex(const Vec2& point);

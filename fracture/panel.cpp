@@ -7,14 +7,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "cell_source.h"
-#include "convex_pieces.h"
 #include "grid.h"
 #include "loose_parts.h"
-#include "panel_mesh.h"
+#include "panel_impl.h"
 #include "predicates.h"
 #include "topple/fracture/unfit_settings.h"
-#include "triangulation.h"
 
 namespace topple::fracture {
 
@@ -23,15 +20,10 @@ namespace {
 constexpr double kTolerance = 1e-7;  ///< of the panel's size
 constexpr double kMargin = 0.25;     ///< of the panel's size: empty space around it in the triangulation
 constexpr double kLeastRing = 1e-4;  ///< of the panel's size
-constexpr int kEmpty = 0, kIntact = 1, kFirstPiece = 2;
+constexpr int kEmpty = 0, kFirstPiece = 2;
 
-struct Box {
-  Vec2 lower, upper;
-  [[nodiscard]] double size() const { return (upper - lower).norm(); }
-};
-
-Box bounds(const PanelShape& shape) {
-  Box box{Vec2::Constant(INFINITY), Vec2::Constant(-INFINITY)};
+PanelBounds bounds(const PanelShape& shape) {
+  PanelBounds box{Vec2::Constant(INFINITY), Vec2::Constant(-INFINITY)};
   const auto take = [&](const Polygon& polygon) {
     for (const Vec2& point : polygon) {
       if (!point.allFinite()) throw std::invalid_argument("a coordinate is not finite");
@@ -68,53 +60,6 @@ void expect_fit(const PanelShape& shape, const PanelSettings& settings) {
   }
 }
 
-class BreakablePanel::Impl {
- public:
-  Impl(const PanelShape& shape, const PanelSettings& settings);
-  Impl(const Impl& other)
-      : shape(other.shape),
-        box(other.box),
-        cells(other.cells->clone()),
-        triangulation(other.triangulation),
-        mesh(other.mesh),
-        intact_area(other.intact_area),
-        hits(other.hits) {}
-
-  Fracture hit(const Vec2& at, std::optional<double> radius);
-  Fracture hold(const std::vector<bool>& held);
-  Fracture leave();
-  [[nodiscard]] std::vector<int> intact() const;
-  [[nodiscard]] double area() const;
-  template <class Visit>
-  void each_intact(const Visit& visit) const {
-    for (int triangle = 0; triangle < triangulation.triangle_slots(); ++triangle)
-      if (triangulation.label(triangle) == kIntact) visit(triangle);
-  }
-
-  PanelShape shape;
-  Box box;
-  std::unique_ptr<CellSource> cells;
-  Triangulation triangulation;
-  PanelMesh mesh;
-  double intact_area = 0;
-  std::uint64_t hits = 0;
-
- private:
-  struct Loop {
-    std::vector<int> chain;    ///< all vertices along it
-    std::vector<int> corners;  ///< what its own corners have become
-  };
-  [[nodiscard]] bool insert(const Polygon& polygon, Loop& loop);
-  bool relabel(const Loop& loop, int from, int to);
-  void clip_to_box(Polygon& polygon) const;
-  void empty(const std::vector<int>& triangles);
-  std::vector<int> gather_cells(int count, ConvexPieces& pieces, Fracture& fracture) const;
-  void tidy();
-  [[nodiscard]] Vec2 centroid(int triangle) const;
-
-  std::vector<int> inside_, sides_;  ///< of relabel, kept for their memory
-};
-
 BreakablePanel::Impl::Impl(const PanelShape& given, const PanelSettings& settings)
     : shape((check(given), given)),
       box(bounds(given)),
@@ -127,7 +72,7 @@ BreakablePanel::Impl::Impl(const PanelShape& given, const PanelSettings& setting
   Loop border;
   if (!insert(shape.outline, border) || border.corners.size() != shape.outline.size())
     throw std::invalid_argument("corners of the outline lie too close together");
-  (void)relabel(border, kEmpty, kIntact);
+  (void)relabel(border, kEmpty, intact_label);
   std::size_t edge = shape.outline.size() - 1;  // the chain begins at the first corner's end of the last edge
   for (std::size_t i = 0; i < border.chain.size(); ++i) {
     const int from = border.chain[i], to = border.chain[(i + 1) % border.chain.size()];
@@ -137,7 +82,7 @@ BreakablePanel::Impl::Impl(const PanelShape& given, const PanelSettings& setting
   }
   Loop loop;
   for (const Polygon& opening : shape.openings)
-    if (insert(opening, loop)) (void)relabel(loop, kIntact, kEmpty);
+    if (insert(opening, loop)) (void)relabel(loop, intact_label, kEmpty);
   tidy();
   intact_area = area();
 }
@@ -217,7 +162,7 @@ void BreakablePanel::Impl::tidy() {
       }
   std::sort(vertices.begin(), vertices.end());
   for (const int vertex : vertices) (void)triangulation.remove_vertex(vertex);
-  mesh.update(triangulation, triangulation.touched(), kIntact);
+  mesh.update(triangulation, triangulation.touched(), intact_label);
   triangulation.clear_touched();
 }
 
@@ -230,13 +175,13 @@ Fracture BreakablePanel::Impl::hit(const Vec2& at, std::optional<double> radius)
   for (Polygon& cell : broken) {
     clip_to_box(cell);
     if (cell.size() < 3) continue;
-    if (insert(cell, loop) && relabel(loop, kIntact, label)) ++label;
+    if (insert(cell, loop) && relabel(loop, intact_label, label)) ++label;
   }
   fracture.cells = broken.size();
   ConvexPieces pieces(triangulation);
   std::vector<int> removed = gather_cells(label - kFirstPiece, pieces, fracture);
   if (!removed.empty())
-    for (const std::vector<int>& island : LooseParts(triangulation, shape.held, kIntact).beside(removed)) {
+    for (const std::vector<int>& island : LooseParts(triangulation, shape.held, intact_label).beside(removed)) {
       pieces.append(island, false, fracture.chunks);
       removed.insert(removed.end(), island.begin(), island.end());
     }
@@ -281,7 +226,7 @@ Fracture BreakablePanel::Impl::hold(const std::vector<bool>& held) {
   shape.held = held;
   Fracture fracture;
   ConvexPieces pieces(triangulation);
-  for (const std::vector<int>& island : LooseParts(triangulation, shape.held, kIntact).around(intact())) {
+  for (const std::vector<int>& island : LooseParts(triangulation, shape.held, intact_label).around(intact())) {
     pieces.append(island, false, fracture.chunks);
     empty(island);
   }
@@ -338,7 +283,7 @@ bool BreakablePanel::valid() const { return impl_->triangulation.valid() && impl
 
 bool BreakablePanel::holds(const Vec2& point) const {
   if (!encloses(impl_->shape.outline, point)) return false;
-  return impl_->triangulation.label(impl_->triangulation.locate(point)) == kIntact;
+  return impl_->triangulation.label(impl_->triangulation.locate(point)) == Impl::intact_label;
 }
 
 double BreakablePanel::intact_length(std::size_t edge) const {

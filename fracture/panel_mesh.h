@@ -15,6 +15,13 @@ class PanelMesh {
   void update(const HalfEdges& triangulation, const std::vector<int>& triangles, int intact);
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [thickness, mesh, faces, owners, sides, pairs, free_sides] = *this;
+    auto& [positions, normals, texture, triangles] = mesh;
+    archive(positions, normals, texture, triangles, faces, owners, sides, pairs, free_sides);
+  }
+
  private:
   static constexpr int none = -1;
   /// Two faces and two for each of three sides.

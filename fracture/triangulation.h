@@ -36,6 +36,13 @@ class Triangulation : public HalfEdges {
   [[nodiscard]] int unfinished() const { return unfinished_; }
   [[nodiscard]] double tolerance() const { return tolerance_; }
 
+  /// The tolerance is given; lists kept for their memory are empty between two calls.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    HalfEdges::serialize(archive);
+    archive(unfinished_, hint_);
+  }
+
  private:
   /// Whether the two triangles at a half-edge are a convex quadrilateral.
   [[nodiscard]] bool may_flip(int edge) const {

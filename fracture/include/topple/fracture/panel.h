@@ -6,6 +6,7 @@
 // exactly, neighbouring pieces share their vertices bit for bit, and the areas of all pieces add up to the panel.
 #include <array>
 #include <cstdint>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -93,6 +94,12 @@ class BreakablePanel {
   [[nodiscard]] double tolerance() const;
   /// Checks the triangulation behind it. For tests.
   [[nodiscard]] bool valid() const;
+
+  /// All that hits have changed, as bytes for load_state() of the same program.
+  void save_state(std::ostream& to) const;
+  /// For a panel that was made of the same shape and settings: it is then as the one that was saved, and breaks on like
+  /// it to the bit. Throws std::runtime_error where bytes are missing; the panel may then be destroyed only.
+  void load_state(std::istream& from);
 
  private:
   class Impl;
