@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/index_of.h"
 #include "simulation/scene.h"
 
 namespace topple::structure {
@@ -22,6 +23,14 @@ class ActionRecord {
 
   [[nodiscard]] const std::vector<Snapshot::Action>& all() const { return all_; }
   [[nodiscard]] Building building_at_start() const;
+
+  /// With the capacities that the building's joints have now: the frame is to be loaded after them.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [scene, all, given] = *this;
+    archive(all, given);
+    for (const auto& [joint, at_start] : given) archive(scene.building.joints[index_of(joint)].capacity);
+  }
 
  private:
   Scene& scene_;

@@ -32,6 +32,12 @@ class HostContacts {
   /// Of the contacts of this step.
   [[nodiscard]] std::span<const HostImpulse> impulses() const { return impulses_; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [to, waiting, impulses] = *this;
+    archive(waiting, impulses);
+  }
+
  private:
   void strike(const HostContact& contact, Part part, HostImpulse& felt);
   void push_debris(const HostContact& contact, HostImpulse& felt);

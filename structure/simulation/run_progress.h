@@ -21,6 +21,12 @@ class RunProgress {
   /// Tells rest whenever it begins, and the end once.
   void record();
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [scene, log, tools, hosts, was_at_rest, done_told] = *this;
+    archive(was_at_rest, done_told);
+  }
+
  private:
   [[nodiscard]] bool quiet() const;
 

@@ -37,4 +37,12 @@ struct Scene {
   [[nodiscard]] Vec3 joint_position(JointId joint) const;
 };
 
+/// Frame and world write their own (StandingFrame::save_state(), World::save_state()), and of the building changes what
+/// was done to it (ActionRecord). Times are this run's own.
+template <class Archive>
+void serialize(Archive& archive, Scene& of) {
+  auto& [building, scenario, options, combination, gravity, frame, world, strength_factors, step, timer] = of;
+  archive(gravity, strength_factors, step);
+}
+
 }  // namespace topple::structure

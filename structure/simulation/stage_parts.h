@@ -41,4 +41,15 @@ struct StageParts {
   ActionRecord actions;
 };
 
+/// After `actions` and `scene`, with its frame and its world: what bodies are made of and the building as it is are
+/// there then. `struck` is of the step that runs.
+template <class Archive>
+void serialize(Archive& archive, StageParts& parts) {
+  auto& [scene, log, sums, debris, hinges, panels, tools, views, break_up, sweep, release_impulses, struck,
+         standing_fracture, standing_impacts, body_impacts, hosts, debris_fracture, release, bodies, overlaps, progress,
+         actions] = parts;
+  archive(log, sums, debris, hinges, panels, tools, views, break_up, sweep, release_impulses, standing_fracture,
+          standing_impacts, body_impacts, hosts, debris_fracture, release, bodies, overlaps, progress);
+}
+
 }  // namespace topple::structure

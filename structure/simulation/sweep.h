@@ -15,6 +15,12 @@ class Sweep {
   /// What awake bodies will touch within `dt`, s: a step, or a part of the one that runs.
   [[nodiscard]] std::vector<collision::Contact> contacts(double dt);
 
+  /// It has nothing of its own.
+  template <class Archive>
+  void serialize(Archive&) {
+    [[maybe_unused]] auto& [scene, debris, break_up] = *this;
+  }
+
  private:
   /// Of a body in this step: its way, and how far its turn takes a point that is as far from its centre as is asked.
   struct Way {

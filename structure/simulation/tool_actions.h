@@ -23,6 +23,12 @@ class ToolActions {
   /// All that acts in this step.
   void use();
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [scene, log, sums, debris, asked, next_event, used_at, weakenings, stiffness_factors, launched] = *this;
+    archive(asked, next_event, weakenings, stiffness_factors, launched);  // `used_at` is of the step that runs
+  }
+
  private:
   /// What loses strength and stiffness over time, stage by stage.
   struct Weakening {
@@ -34,6 +40,11 @@ class ToolActions {
     /// Factor after some stages, `last` being the one after all of them.
     [[nodiscard]] double after(int stages, double last) const { return 1 + (last - 1) * stages / tool.stages; }
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Weakening& weakening) {
+    auto& [tool, begin, stage] = weakening;
+    archive(tool, begin, stage);
+  }
   void utilisation_at(double instant, const Tool& tool);
   void use(const Projectile& projectile);
   void use(const WreckingBall& ball);

@@ -28,6 +28,12 @@ class BodyAccount {
   /// Contacts of the last motion that are felt.
   [[nodiscard]] const std::vector<ContactRecord>& contacts() const { return contacts_; }
 
+  /// Contacts are those of the step that runs.
+  template <class Archive>
+  void serialize(Archive&) {
+    [[maybe_unused]] auto& [scene, sums, debris, contacts] = *this;
+  }
+
  private:
   void count(BodyMotion& one);
 

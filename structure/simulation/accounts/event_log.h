@@ -31,6 +31,13 @@ class EventLog {
   /// Listeners of another log of the same run, who hear nothing again: neither of what is here already.
   void set_listeners(std::vector<std::function<void(const SimulationEvent&)>> listeners);
 
+  /// Listeners are the host's; set_listeners() tells what they have heard.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [scene, events, listeners, heard] = *this;
+    archive(events);
+  }
+
  private:
   const Scene& scene_;
   std::vector<SimulationEvent> events_;

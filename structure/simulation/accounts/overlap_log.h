@@ -14,6 +14,12 @@ class OverlapLog {
   void read();
   [[nodiscard]] const BodyOverlaps& told() const { return told_; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [scene, debris, watch, told] = *this;
+    archive(watch, told);
+  }
+
  private:
   const Scene& scene_;
   const Debris& debris_;

@@ -23,14 +23,19 @@ BodyView view_of(const Body& one) {
 
 }  // namespace
 
-/// Both lists are in order of id; those of bodies that stay are written over.
 void PieceViews::update() {
   std::vector<std::int64_t> before;
   before.reserve(views_.size());
   for (const BodyView& view : views_) before.push_back(view.id.value);
+  view_bodies();
+  record_changes(before);
+}
+
+/// Both lists are in order of id; those of bodies that stay are written over.
+void PieceViews::view_bodies() {
   const std::span<const BodyMotion> motions = debris_.bodies.motions();
-  const auto same_id = [](std::int64_t id, const BodyMotion& one) { return id == one.id; };
-  if (!std::equal(before.begin(), before.end(), motions.begin(), motions.end(), same_id)) {
+  const auto same_id = [](const BodyView& view, const BodyMotion& one) { return view.id.value == one.id; };
+  if (!std::equal(views_.begin(), views_.end(), motions.begin(), motions.end(), same_id)) {
     std::vector<BodyView> now;
     now.reserve(motions.size());
     auto old = views_.begin();
@@ -55,7 +60,6 @@ void PieceViews::update() {
     const auto hung = debris_.cables.find(view.id.value);
     view.cable_anchor = hung != debris_.cables.end() ? std::optional(hung->second.anchor) : std::nullopt;
   }
-  record_changes(before);
 }
 
 /// Both lists of bodies are in order of id.

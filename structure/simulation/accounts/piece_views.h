@@ -26,7 +26,20 @@ class PieceViews {
   [[nodiscard]] const std::shared_ptr<std::vector<double>>& poses() const { return poses_; }
   [[nodiscard]] const PieceChanges& changes() const { return changes_; }
 
+  template <class Archive>
+  void save(Archive& archive) const {
+    auto& [scene, debris, views, poses, changes] = *this;
+    archive(changes);
+  }
+  /// After bodies and world: views and poses are of them.
+  template <class Archive>
+  void load(Archive& archive) {
+    archive(changes_);
+    view_bodies();
+  }
+
  private:
+  void view_bodies();
   void record_changes(std::span<const std::int64_t> before);
 
   const Scene& scene_;

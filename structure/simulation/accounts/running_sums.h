@@ -31,4 +31,10 @@ struct RunningSums {
   }
 };
 
+template <class Archive>
+void serialize(Archive& archive, RunningSums& sums) {
+  auto& [ledger, body_gravity_work, body_work_put_in, passed_on, kinetic_released, counters] = sums;
+  archive(ledger, body_gravity_work, body_work_put_in, passed_on, kinetic_released, counters);
+}
+
 }  // namespace topple::structure

@@ -30,6 +30,17 @@ struct BodyMotion {
     double reach = 0;      ///< m, Obstacles::reach()
   } seen;
 };
+template <class Archive>
+void serialize(Archive& archive, BodyMotion::Seen& seen) {
+  auto& [room, position, travel, orientation, turned_by, reach] = seen;
+  archive(room, position, travel, orientation, turned_by, reach);
+}
+/// The body is found by its id; `step_start` and `before` are of the step that runs.
+template <class Archive>
+void serialize(Archive& archive, BodyMotion& motion) {
+  auto& [id, body, mass, asleep, step_start, before, reach, looked_over, seen] = motion;
+  archive(id, mass, asleep, reach, looked_over, seen);
+}
 
 class Bodies {
  public:
@@ -60,6 +71,14 @@ class Bodies {
   /// Ids of those that are one panel and no member, and of those with members that hold more than one part together.
   [[nodiscard]] std::span<const std::int64_t> single_panels() const { return single_panels_; }
   [[nodiscard]] std::span<const std::int64_t> composed() const { return composed_; }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [all, motions, single_panels, composed] = *this;
+    archive(all, motions, single_panels, composed);
+    if constexpr (Archive::is_loading::value)
+      for (BodyMotion& one : motions) one.body = &all.at(one.id);
+  }
 
  private:
   Map all_;  ///< where a body is it stays

@@ -34,6 +34,12 @@ struct Body {
   std::vector<Part> near;  ///< what may stand where it was looked over, and had no shape in the collision world
 };
 
+template <class Archive>
+void serialize(Archive& archive, Body& of) {
+  auto& [id, name, members, panels, nodes, rest, radius, volume, hull, chunk_of, end_joint, mesh, bounds, near] = of;
+  archive(id, name, members, panels, nodes, rest, radius, volume, hull, chunk_of, end_joint, mesh, bounds, near);
+}
+
 /// Inertia about the centre, global axes, as the body lies.
 [[nodiscard]] inline Mat3 world_inertia(const Body& body, const Eigen::Quaterniond& orientation) {
   const Mat3 turned = orientation.toRotationMatrix();

@@ -66,6 +66,25 @@ class BreakUp {
   std::vector<collision::BodyId> split(collision::BodyId id, const std::vector<FreeSegmentParts>& parts,
                                        std::vector<Body> chunks = {});
 
+  template <class Archive>
+  void save(Archive& archive) const {
+    auto& [scene, log, sums, debris, hinges, panels, views, pressing, broken, free_segments] = *this;
+    archive(pressing, broken, free_segments.size());
+    for (const auto& [body, segment] : free_segments) archive(body, *segment);
+  }
+  template <class Archive>
+  void load(Archive& archive) {
+    std::size_t segments = 0;
+    archive(pressing_, broken_, segments);
+    for (; segments > 0; --segments) {
+      std::int64_t body = -1;
+      archive(body);
+      std::unique_ptr<FreeSegment>& segment = free_segments_[body];
+      segment = std::make_unique<FreeSegment>(scene_.building);
+      archive(*segment);
+    }
+  }
+
  private:
   /// What presses on a body, its spin and gravity do to it, in the axes of the undeformed building.
   struct BodyActions {

@@ -76,4 +76,21 @@ struct Debris {
   std::map<std::int64_t, HungBall> cables;  ///< by body
 };
 
+template <class Archive>
+void serialize(Archive& archive, Debris::Frozen& frozen) {
+  auto& [on, mass] = frozen;
+  archive(on, mass);
+}
+template <class Archive>
+void serialize(Archive& archive, Debris::HungBall& ball) {
+  auto& [cable, anchor] = ball;
+  archive(cable, anchor);
+}
+/// The grid is the building's.
+template <class Archive>
+void serialize(Archive& archive, Debris& of) {
+  auto& [scene, masses, shapes, grid, obstacles, resting, frozen, bodies, body_of_part, cables] = of;
+  archive(masses, shapes, obstacles, resting, frozen, bodies, body_of_part, cables);
+}
+
 }  // namespace topple::structure

@@ -36,6 +36,12 @@ class Hinges {
   [[nodiscard]] StandingHolds& holds() { return holds_; }
   [[nodiscard]] const StandingHolds& holds() const { return holds_; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [scene, log, sums, debris, holds, hinges, last_load] = *this;
+    archive(holds, hinges, last_load);
+  }
+
  private:
   struct Hung {
     JointId joint;
@@ -49,6 +55,13 @@ class Hinges {
     Vec3 applied = Vec3::Zero(), moment_applied = Vec3::Zero();
     bool acted = false;  ///< in substeps of this step: its smoothed pull does not act as well
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Hung& hung) {
+    auto& [joint, hinge, body, holder, place, member_hangs, axes, load_key, force, moment, applied, moment_applied,
+           acted] = hung;
+    archive(joint, hinge, body, holder, place, member_hangs, axes, load_key, force, moment, applied, moment_applied,
+            acted);
+  }
   bool hang(JointId joint, collision::BodyId id);
   void unhook(const Hung& hung);
   void pass_what_holds(collision::BodyId id, const Vec3& point, collision::BodyId holder);

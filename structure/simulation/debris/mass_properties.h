@@ -17,6 +17,11 @@ struct MassProperties {
   /// Joins another body to this one (parallel axes).
   void add(const MassProperties& other);
 };
+template <class Archive>
+void serialize(Archive& archive, MassProperties& of) {
+  auto& [mass, centre, inertia] = of;
+  archive(mass, centre, inertia);
+}
 
 /// How a member's mass lies along its axis, from its first end.
 struct LineMass {

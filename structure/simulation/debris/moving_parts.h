@@ -27,12 +27,23 @@ class MovingParts final : public collision::MovingStructure {
   void advance(double dt, std::span<const collision::Contact> contacts,
                std::span<const collision::HingePull> pulls) override;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [known, debris, hinges, sums, substep] = *this;
+    archive(known);
+  }
+
  private:
   struct Known {
     PartMotion velocity;      ///< at the start of the substep
     PartMotion acceleration;  ///< mean of the last one
     bool held_anew = false;   ///< something broke in it
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Known& known) {
+    auto& [velocity, acceleration, held_anew] = known;
+    archive(velocity, acceleration, held_anew);
+  }
   /// Of a part, or of a place that hinges hold to, that moves.
   [[nodiscard]] std::optional<PartMotion> velocity(collision::ObstacleId obstacle) const;
   [[nodiscard]] collision::ObstacleMotion pose_and_mass(collision::ObstacleId obstacle) const;

@@ -38,6 +38,13 @@ class Obstacles {
   /// -1 when the part has no shape.
   [[nodiscard]] collision::ObstacleId obstacle_of(Part part) const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [building, shapes, grid, friction, restitution, sways, obstacle_of_part, settled, part_of_obstacle, shifted,
+           reach] = *this;
+    archive(obstacle_of_part, settled, part_of_obstacle, shifted, reach);
+  }
+
  private:
   [[nodiscard]] collision::Pose pose_of(Part part, const PartMotion& shift) const;
   [[nodiscard]] collision::ObstacleId make(Part part, collision::World& world);

@@ -14,6 +14,11 @@ struct Part {
   [[nodiscard]] bool valid() const { return member.valid() || panel.valid(); }
   auto operator<=>(const Part&) const = default;
 };
+template <class Archive>
+void serialize(Archive& archive, Part& part) {
+  auto& [member, panel] = part;
+  archive(member, panel);
+}
 
 /// Members first, then panels: one number for each part.
 [[nodiscard]] inline std::int64_t part_number(const Building& building, Part part) {

@@ -22,6 +22,13 @@ class PartMasses {
   /// What is left of a broken panel.
   void set(PanelId id, const MassProperties& left) { panels_[index_of(id)] = left; }
 
+  /// The rest is the building's.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [members, panels, nodes, member_loads] = *this;
+    archive(panels);
+  }
+
  private:
   std::vector<MassProperties> members_, panels_, nodes_;
   std::vector<std::vector<solver::BeamLoad>> member_loads_;  ///< in the combination

@@ -9,6 +9,11 @@ namespace topple::structure {
 struct PartMotion {
   Vec3 moved = Vec3::Zero(), turned = Vec3::Zero();
 };
+template <class Archive>
+void serialize(Archive& archive, PartMotion& motion) {
+  auto& [moved, turned] = motion;
+  archive(moved, turned);
+}
 
 /// Displacement of a standing part about `at`: of the rigid motions the one nearest to those of its nodes that
 /// stand and that it still holds on to.

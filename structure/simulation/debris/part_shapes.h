@@ -28,6 +28,11 @@ struct Bounds {
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
   }
 };
+template <class Archive>
+void serialize(Archive& archive, Bounds& bounds) {
+  auto& [low, high] = bounds;
+  archive(low, high);
+}
 
 class PartShapes {
  public:
@@ -47,6 +52,13 @@ class PartShapes {
   [[nodiscard]] const Bounds& bounds(Part part) const;
   /// Distance along a ray (unit direction) to the part where it stands undeformed.
   [[nodiscard]] std::optional<double> ray(Part part, const Vec3& from, const Vec3& direction) const;
+
+  /// The rest is the building's.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [members, members_at_node, shapes, broken] = *this;
+    archive(broken);
+  }
 
  private:
   /// A member or a rectangular panel: box with rows of `axes` as its own. Another panel: eight corners.

@@ -36,4 +36,11 @@ struct Release {
   void remove_body(collision::BodyId id, bool keep_weight);
 };
 
+/// It has nothing of its own.
+template <class Archive>
+void serialize(Archive&, Release& of) {
+  [[maybe_unused]] auto& [scene, log, sums, debris, hinges, panels, break_up, release_impulses, standing_fracture,
+                          debris_fracture] = of;
+}
+
 }  // namespace topple::structure

@@ -30,6 +30,12 @@ class ReleaseImpulses {
   /// What apply() gave to a body whose centre is at `centre`.
   void add_to(Momentum& sum, const Body& one, const Vec3& centre) const;
 
+  /// All are of the step that runs.
+  template <class Archive>
+  void serialize(Archive&) {
+    [[maybe_unused]] auto& [all] = *this;
+  }
+
  private:
   [[nodiscard]] static bool struck(const ReleaseImpulse& given, const Body& one);
 

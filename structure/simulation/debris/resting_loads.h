@@ -44,6 +44,12 @@ class RestingLoads {
   }
   [[nodiscard]] std::size_t size() const { return resting_.size(); }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [resting, next_key] = *this;
+    archive(resting, next_key);
+  }
+
  private:
   struct Key {
     std::int64_t body;
@@ -58,6 +64,16 @@ class RestingLoads {
     double seen_weight = 0;
     bool laid = false;
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Key& key) {
+    auto& [body, part] = key;
+    archive(body, part);
+  }
+  template <class Archive>
+  friend void serialize(Archive& archive, Resting& one) {
+    auto& [load_key, force, point, applied, applied_at, seen_force, seen_point, seen_weight, laid] = one;
+    archive(load_key, force, point, applied, applied_at, seen_force, seen_point, seen_weight, laid);
+  }
   [[nodiscard]] static bool moves(const StandingFrame& frame, Part part) {
     return frame.moves({part.member, part.panel});
   }

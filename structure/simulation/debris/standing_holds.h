@@ -28,6 +28,12 @@ class StandingHolds {
   /// Those off by DebrisSettings::follow go after what they are places of; to be called when what stands has moved.
   void follow();
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [scene, holds] = *this;
+    archive(holds);
+  }
+
  private:
   struct Hold {
     ContactPlace place;
@@ -38,6 +44,11 @@ class StandingHolds {
     double mass = 0;                        ///< kg
     Mat3 inertia = Mat3::Zero();            ///< kg m2, about the place
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Hold& hold) {
+    auto& [place, fixed_to, origin, followed, found_at, mass, inertia] = hold;
+    archive(place, fixed_to, origin, followed, found_at, mass, inertia);
+  }
   [[nodiscard]] PartMotion displacement(const Hold& hold) const;
   void find_mass(Hold& hold) const;
 

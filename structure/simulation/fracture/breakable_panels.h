@@ -45,6 +45,25 @@ class BreakablePanels {
   /// What bends the panel to that force, and punches it then, J: elastic energy, and the force over half the thickness.
   [[nodiscard]] double punching_energy(PanelId panel, const Vec3& at, const Vec3& along, double radius) const;
 
+  /// What panels bear, and what there is to hold their edges, is the building's.
+  template <class Archive>
+  void save(Archive& archive) const {
+    auto& [scene, debris, panels, any, all_broken, edge_bearers] = *this;
+    archive(all_broken.size());
+    for (const auto& [panel, broken] : all_broken) archive(panel, broken);
+  }
+  /// After the debris: a panel is made of the corners of its shape.
+  template <class Archive>
+  void load(Archive& archive) {
+    std::size_t count = 0;
+    archive(count);
+    for (; count > 0; --count) {
+      PanelId panel;
+      archive(panel);
+      archive(breaking(panel));
+    }
+  }
+
  private:
   /// What is there, in the whole building, to hold an edge of a shell: supports, and joints of members and other
   /// shells.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "archive/nested_state.h"
 #include "simulation/debris/mass_properties.h"
 #include "topple/fracture/panel.h"
 #include "topple/structure/standing_frame.h"
@@ -60,6 +61,13 @@ class BrokenPanel {
   /// Distance along a ray (unit direction) to its surface.
   [[nodiscard]] std::optional<double> ray(const Vec3& from, const Vec3& direction) const;
 
+  /// Its place, thickness and space are the building's.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [plane, thickness, panel, density, space, held, holes, chunks_out, description, mesh] = *this;
+    archive(NestedState<fracture::BreakablePanel>{panel}, density, held, holes, chunks_out, description, mesh);
+  }
+
  private:
   struct Plane {
     Vec3 origin;
@@ -77,6 +85,11 @@ class BrokenPanel {
     MassProperties rest;
     std::vector<std::vector<Vec3>> hulls;
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Description& of) {
+    auto& [volume, rest, hulls] = of;
+    archive(volume, rest, hulls);
+  }
   [[nodiscard]] const Description& described() const;
 
   Plane plane_;

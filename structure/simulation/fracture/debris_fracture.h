@@ -46,6 +46,12 @@ class DebrisFracture {
   /// They break out of the bodies that they are in now.
   void crumble(const std::map<PanelId, PanelImpact>& impacts);
 
+  /// It has nothing of its own.
+  template <class Archive>
+  void serialize(Archive&) {
+    [[maybe_unused]] auto& [scene, log, sums, debris, hinges, panels, views, break_up, release_impulses] = *this;
+  }
+
  private:
   /// The hardest impact on a panel that came down: change of speed, m/s, and where, in the body's axes from its centre.
   struct Landing {

@@ -32,6 +32,12 @@ class StandingFracture {
   /// what that leaves is looked at again when the frame has settled, or after its next substep.
   void crack();
 
+  /// It has nothing of its own.
+  template <class Archive>
+  void serialize(Archive&) {
+    [[maybe_unused]] auto& [scene, log, sums, debris, panels] = *this;
+  }
+
  private:
   /// How the material of a panel moves, as a rigid body.
   struct RigidMotion {

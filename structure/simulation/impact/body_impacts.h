@@ -34,6 +34,12 @@ class BodyImpacts {
   /// Contacts of this step that are fast enough and of which something can break, in order of time.
   void strike_all(const std::vector<collision::Contact>& contacts);
 
+  /// It has nothing of its own.
+  template <class Archive>
+  void serialize(Archive&) {
+    [[maybe_unused]] auto& [scene, log, sums, debris, break_up, standing, struck] = *this;
+  }
+
  private:
   [[nodiscard]] std::optional<collision::Contact> contact_now(const collision::Contact& swept) const;
   void strike(const std::vector<collision::Contact>& contacts);

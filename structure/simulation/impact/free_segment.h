@@ -27,6 +27,11 @@ struct FreeSegmentParts {
   std::vector<NodeId> nodes;
   std::vector<double> member_mass, panel_mass, node_mass;
 };
+template <class Archive>
+void serialize(Archive& archive, FreeSegmentParts& parts) {
+  auto& [members, panels, nodes, member_mass, panel_mass, node_mass] = parts;
+  archive(members, panels, nodes, member_mass, panel_mass, node_mass);
+}
 
 /// A force on the body, at the place and in the axes of the undeformed building.
 struct FreePush {
@@ -42,6 +47,8 @@ class FreeSegment {
   FreeSegment(const Building& building, FreeSegmentParts parts, const std::function<bool(JointId)>& holds,
               const std::function<Eigen::MatrixXd(PanelId)>& shell_stiffness = nullptr,
               const FreePanelEdges& edges = nullptr);
+  /// One that is to be loaded.
+  explicit FreeSegment(const Building& building) : building_(building) {}
 
   /// False when no joint inside it could break. One that can move within itself is asked nothing of its members.
   [[nodiscard]] bool can_break() const { return can_break_; }
@@ -70,6 +77,22 @@ class FreeSegment {
   /// is known of its members, and what is struck is as stiff as its own part.
   [[nodiscard]] Flexibility flexibility(std::span<const FreePush> unit_pushes);
 
+  /// All of it: joints may have broken since it was made, and more may lie on it.
+  template <class Archive>
+  void save(Archive& archive) const {
+    auto& [building, parts, joints, node_number, point_mass, shells, hung, model, mass, centre, inertia, held_at,
+           is_mechanism, can_break, analysis] = *this;
+    archive(parts, joints, node_number, point_mass, shells, hung, model, mass, centre, inertia, held_at, is_mechanism,
+            can_break, analysis != nullptr);
+  }
+  template <class Archive>
+  void load(Archive& archive) {
+    bool analysed = false;
+    archive(parts_, joints_, node_number_, point_mass_, shells_, hung_, model_, mass_, centre_, inertia_, held_at_,
+            is_mechanism_, can_break_, analysed);
+    if (analysed) analysis_ = std::make_unique<solver::StaticAnalysis>(model_);
+  }
+
  private:
   void analyse();
   [[nodiscard]] double compliance_of_part_alone(const FreePush& unit_push) const;
@@ -93,6 +116,11 @@ class FreeSegment {
     int patch = -1;             ///< of a shell
     std::vector<NodeId> nodes;  ///< of the patch, in its order
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Hung& hung) {
+    auto& [panel, mass, length, patch, nodes] = hung;
+    archive(panel, mass, length, patch, nodes);
+  }
   void add_members(const std::function<bool(JointId)>& holds);
   void add_point_masses();
   void add_shell(PanelId panel, const Eigen::MatrixXd& stiffness, const std::function<bool(JointId)>& holds);

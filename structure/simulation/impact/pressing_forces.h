@@ -28,6 +28,12 @@ class PressingForces {
   /// Sum of their sizes, N.
   [[nodiscard]] double size(collision::BodyId body) const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto& [pressing] = *this;
+    archive(pressing);
+  }
+
  private:
   struct Key {
     std::int64_t body, part, other_kind, other, other_part;
@@ -38,6 +44,17 @@ class PressingForces {
     Vec3 seen_force = Vec3::Zero(), seen_point = Vec3::Zero();
     double seen_weight = 0;
   };
+  template <class Archive>
+  friend void serialize(Archive& archive, Key& key) {
+    auto& [body, part, other_kind, other, other_part] = key;
+    archive(body, part, other_kind, other, other_part);
+  }
+  /// What is seen is of the step that runs.
+  template <class Archive>
+  friend void serialize(Archive& archive, Pressing& one) {
+    auto& [force, point, seen_force, seen_point, seen_weight] = one;
+    archive(force, point);
+  }
   void gather(const Key& key, const BodyPlace& place, const Vec3& force, const Vec3& point);
 
   std::map<Key, Pressing> pressing_;

@@ -34,6 +34,12 @@ class StandingImpacts {
   /// has happened.
   [[nodiscard]] bool punch_moving(const collision::Contact& contact);
 
+  /// It has nothing of its own.
+  template <class Archive>
+  void serialize(Archive&) {
+    [[maybe_unused]] auto& [scene, log, sums, debris, panels, fracture, release_impulses, struck] = *this;
+  }
+
  private:
   struct SimultaneousImpact;
   void strike(const collision::Contact& contact);

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <span>
@@ -199,6 +200,16 @@ class Simulation {
   /// Comes back to a moment of a simulation of the same building and scenario; listeners stay and are not called on the
   /// way. Throws InputError when the way does not lead there, and is then as it was before.
   void restore(const Snapshot& snapshot);
+  /// All of it as it is between two steps, as bytes for load_state() of the same program: what took a snapshot the way
+  /// there takes a state no more than its size. Changes nothing. Throws std::logic_error where the collision world of
+  /// SimulationOptions::make_world cannot (World::save_state()).
+  void save_state(std::ostream& to) const;
+  /// Goes on from a state of a simulation of the same building, scenario and world, as that one does: every step, event
+  /// and account is the same to the bit. `duration` and `until_rest` of the scenario, and the threads, may be others.
+  /// Listeners stay, and hear what happens from then on; what was seen by handles and views before is of the past.
+  /// Throws InputError for a state of another scene and std::runtime_error where bytes are missing, and is then as it
+  /// was before.
+  void load_state(std::istream& from);
   /// A body of the host comes to touch something: acts in the next step. Throws InputError for a contact that is not
   /// sound; one with what stands no more does nothing.
   void touch(const HostContact& contact);
