@@ -1,18 +1,14 @@
 #pragma once
 // What a host or a scenario does to a simulation, as bytes (solver/archive/state_archive.h).
+#include <cstdint>
+
 #include "archive/frame_archive.h"
-#include "state_archive.h"
 #include "topple/collision/world_archive.h"
 #include "topple/structure/host_contact.h"
 #include "topple/structure/snapshot.h"
 
 namespace topple::structure {
 
-template <class Archive>
-void serialize(Archive& archive, NodeLoad& load) {
-  auto& [node, force] = load;
-  archive(node, force);
-}
 template <class Archive>
 void serialize(Archive& archive, Projectile& projectile) {
   auto& [from, velocity, mass, radius] = projectile;
@@ -48,10 +44,14 @@ void serialize(Archive& archive, GravityTool& tool) {
   auto& [gravity] = tool;
   archive(gravity);
 }
+/// The loads one by one: NodeLoad's member `load` passes for cereal's function of that name.
 template <class Archive>
 void serialize(Archive& archive, LoadTool& tool) {
   auto& [nodes] = tool;
-  archive(nodes);
+  std::uint64_t count = nodes.size();
+  archive(count);
+  nodes.resize(count);
+  for (auto& [node, force] : nodes) archive(node, force);
 }
 
 template <class Archive>
@@ -76,6 +76,3 @@ void serialize(Archive& archive, Snapshot::Action& action) {
 }
 
 }  // namespace topple::structure
-
-// Its member `load` would pass for a function of that name.
-CEREAL_SPECIALIZE_FOR_ALL_ARCHIVES(topple::structure::NodeLoad, cereal::specialization::non_member_serialize)
