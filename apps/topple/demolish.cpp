@@ -17,6 +17,7 @@
 #include "topple/structure/formats/files.h"
 #include "topple/structure/formats/output_files.h"
 #include "topple/structure/snapshot.h"
+#include "topple/structure/state_store.h"
 #include "topple/structure/visual_mesh.h"
 
 namespace topple::app {
@@ -51,8 +52,10 @@ class Progress {
   bool terminal_ = isatty(STDERR_FILENO) != 0;
 };
 
+/// At once where the state is kept that the snapshot leads to, else by doing again what was done.
 void resume(structure::Simulation& simulation, const std::string& file) {
   const structure::Snapshot snapshot = structure::read_snapshot(file);
+  if (const auto states = structure::StateStore::of_user(); states && states->load(snapshot, simulation)) return;
   try {
     simulation.restore(snapshot);
   } catch (const structure::InputError& error) {
@@ -79,6 +82,7 @@ class Saves {
       std::ostringstream name;
       name << "snapshot-" << due_[next_] << ".topple";
       structure::write_file(folder_ / name.str(), structure::snapshot_bytes(simulation.save()));
+      if (states_) (void)states_->keep(simulation);
     }
   }
 
@@ -89,6 +93,7 @@ class Saves {
 
  private:
   std::filesystem::path folder_;
+  std::optional<structure::StateStore> states_ = structure::StateStore::of_user();
   std::vector<double> due_;
   std::size_t next_ = 0;
 };

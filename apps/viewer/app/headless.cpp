@@ -121,7 +121,8 @@ class Stage {
 class HeadlessRun {
  public:
   HeadlessRun(const Scene& scene, Script script, std::array<int, 2> size, const HeadlessOptions& options)
-      : session_(scene.building, scene.scenario, scene.drawn),
+      : session_(scene.building, scene.scenario, scene.drawn, std::make_shared<Recording>(),
+                 structure::StateStore::of_user()),
         driver_(session_),
         stage_(scene, {size[0], size[1]}, options.panel, options.scale),
         controller_(driver_, scene, ground_height(*scene.building, scene.scenario), stage_.scene_size()),
@@ -216,6 +217,7 @@ class HeadlessRun {
                             controller_.shake();
                           },
                           [&](const LookAction& a) {
+                            if (a.time && *a.time < driver_.recording().span()[0]) controller_.playback().record_way();
                             a.time ? controller_.playback().seek(*a.time) : controller_.playback().seek_present();
                           },
                           [&](const GoOnAction&) { controller_.playback().go_on_from_here(); },

@@ -20,12 +20,14 @@ int threads_for_steps() { return std::clamp(static_cast<int>(std::thread::hardwa
 }  // namespace
 
 Session::Session(std::shared_ptr<const structure::Building> building, structure::Scenario scenario,
-                 std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn, std::shared_ptr<Recording> recording)
+                 std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn, std::shared_ptr<Recording> recording,
+                 std::optional<structure::StateStore> states)
     : building_(std::move(building)),
       given_(building_),
       scenario_(std::move(scenario)),
       drawn_meshes_(std::move(drawn)),
-      recording_(std::move(recording)) {
+      recording_(std::move(recording)),
+      states_(std::move(states)) {
   scenario_.duration = endless;
   scenario_.until_rest = false;
   begin();
@@ -143,9 +145,7 @@ void Session::tune(const structure::JointChange& change) {
 void Session::carry_out(const Action& action) {
   if (const auto* tool = std::get_if<structure::Tool>(&action.what)) {
     simulation_->apply(*tool);
-    watch(*tool, simulation_->time());
-    if (const auto* other = std::get_if<structure::GravityTool>(tool)) gravity_ = other->gravity;
-    return;
+    return follow(*tool, simulation_->time());
   }
   if (const auto* earthquake = std::get_if<Earthquake>(&action.what)) {
     shaking_ = {*earthquake, simulation_->time()};
@@ -162,7 +162,10 @@ void Session::carry_out(const Action& action) {
     taker_.burn(melting, simulation_->time(), DustPuff::Kind::sparks);
     return;
   }
-  if (const auto* change = std::get_if<structure::CapacityChange>(&action.what)) return carry_out(*change);
+  if (const auto* change = std::get_if<structure::CapacityChange>(&action.what)) {
+    simulation_->set_capacities(change->joints);
+    return follow(*change);
+  }
   if (const auto* contact = std::get_if<structure::HostContact>(&action.what)) return simulation_->touch(*contact);
   if (const auto* explosion = std::get_if<Explosion>(&action.what)) {
     for (const structure::HostContact& contact : blast_contacts(*simulation_, *explosion)) simulation_->touch(contact);
@@ -177,9 +180,13 @@ void Session::carry_out(const Action& action) {
   taker_.forget_answer();
 }
 
+void Session::follow(const structure::Tool& tool, double at) {
+  watch(tool, at);
+  if (const auto* other = std::get_if<structure::GravityTool>(&tool)) gravity_ = other->gravity;
+}
+
 /// As a saved run tells it: capacities that are set already. What is shown and written names joint after joint.
-void Session::carry_out(const structure::CapacityChange& change) {
-  simulation_->set_capacities(change.joints);
+void Session::follow(const structure::CapacityChange& change) {
   for (const auto& [joint, capacity] : change.joints) {
     structure::JointChange one;
     one.joints = (*building_)[joint].name;
@@ -194,15 +201,21 @@ void Session::carry_out(const structure::CapacityChange& change) {
   taker_.forget_answer();
 }
 
-std::string Session::save() const { return structure::snapshot_bytes(simulation_->save()); }
+std::string Session::save() const {
+  if (states_) (void)states_->keep(*simulation_);
+  return structure::snapshot_bytes(simulation_->save());
+}
 
 void Session::load(const structure::Snapshot& saved) {
   constexpr std::int64_t longest = 10'000'000;  // steps that are made and kept on the way: 46 hours at 60 a second
   restart();
   if (saved.step > longest) return report_restart("is of more than 10000000 steps");
   if (saved.scene != simulation_->save().scene) return report_restart("is of another model, scenario or rules");
+  remember(saved);
+  if (take_up_state(saved)) return end_shaking();
   try {
-    go_the_way_of(saved);
+    run_again(saved.step, true);
+    end_shaking();
   } catch (const std::exception& error) {
     return report_restart(error.what());
   }
@@ -215,7 +228,7 @@ void Session::report_restart(const std::string& why) {
       {0, structure::SimulationEvent::Kind::tool, "the saved run cannot be taken up: it " + why + "; begun anew"});
 }
 
-void Session::go_the_way_of(const structure::Snapshot& saved) {
+void Session::remember(const structure::Snapshot& saved) {
   for (const auto& action : saved.actions) {
     if (const auto* tool = std::get_if<structure::Tool>(&action.what)) actions_.push_back({action.step, *tool});
     if (const auto* change = std::get_if<structure::CapacityChange>(&action.what))
@@ -223,10 +236,29 @@ void Session::go_the_way_of(const structure::Snapshot& saved) {
     if (const auto* contact = std::get_if<structure::HostContact>(&action.what))
       actions_.push_back({action.step, *contact});
   }
-  run_again(saved.step, true);
-  // What shook the ground when it was saved ends here: only what it did is in the file.
+}
+
+/// False: it is not kept.
+bool Session::take_up_state(const structure::Snapshot& saved) {
+  if (!states_ || !states_->load(saved, *simulation_)) return false;
+  for (const Action& action : actions_) {
+    if (const auto* tool = std::get_if<structure::Tool>(&action.what))
+      follow(*tool, static_cast<double>(action.step) * scenario_.step);
+    if (const auto* change = std::get_if<structure::CapacityChange>(&action.what)) follow(*change);
+  }
+  return true;
+}
+
+/// What shook the ground when it was saved ends here: only what it did is in the file.
+void Session::end_shaking() {
   if (!gravity_ || gravity_->head<2>().isZero(0)) return;
   apply(structure::GravityTool{structure::Vec3(0, 0, gravity_at_rest().z())});
+}
+
+void Session::record_way() {
+  if (recording_->span()[0] <= 0) return;
+  recording_->clear();
+  run_again(simulation_->steps(), true);
 }
 
 /// What joints bear, for those who know the building only as it was given.

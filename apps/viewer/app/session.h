@@ -14,6 +14,7 @@
 #include "renderer/snapshot_taker.h"
 #include "topple/structure/joint_tuning.h"
 #include "topple/structure/simulation.h"
+#include "topple/structure/state_store.h"
 
 namespace topple::viewer {
 
@@ -29,10 +30,12 @@ struct RunRules {
 class Session {
  public:
   /// The scenario's end is put off: a person may act at any time. `drawn`: around the building; null: nothing.
-  /// `recording`: what snapshots are added to. Throws as structure::Simulation and structure::VisualMesh do.
+  /// `recording`: what snapshots are added to. `states`: where those of saved runs are kept; none: they are done again
+  /// when they are loaded. Throws as structure::Simulation and structure::VisualMesh do.
   Session(std::shared_ptr<const structure::Building> building, structure::Scenario scenario,
           std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn = nullptr,
-          std::shared_ptr<Recording> recording = std::make_shared<Recording>());
+          std::shared_ptr<Recording> recording = std::make_shared<Recording>(),
+          std::optional<structure::StateStore> states = {});
 
   void step();
   void apply(const structure::Tool& tool);
@@ -55,9 +58,12 @@ class Session {
   void return_to(std::int64_t step);
   /// The moment as bytes of structure::Snapshot; the scene's own model and scenario have to be there to load it.
   [[nodiscard]] std::string save() const;
-  /// Takes the run up where it was saved; the way there can be looked back at. When what was done then does not lead
-  /// there (another model, other rules), the run begins anew and its events say so.
+  /// Takes the run up where it was saved: at once where its state is kept, else by doing what was done then. When that
+  /// does not lead there (another model, other rules), the run begins anew and its events say so.
   void load(const structure::Snapshot& saved);
+  /// Makes the way here again where it was not recorded (a state was loaded), so that it can be looked back at; no
+  /// effect where it was.
+  void record_way();
   /// Finds which share of a downward force put here goes through each joint; snapshots carry it from now on.
   void find_path(const structure::ContactPlace& place);
 
@@ -94,11 +100,15 @@ class Session {
   void keep(const Action& action, const std::string& told);
   [[nodiscard]] structure::Vec3 gravity_at_rest() const;
   [[nodiscard]] bool is_told(const structure::SimulationEvent& event);
-  void go_the_way_of(const structure::Snapshot& saved);
+  void remember(const structure::Snapshot& saved);
+  [[nodiscard]] bool take_up_state(const structure::Snapshot& saved);
+  void end_shaking();
   void report_restart(const std::string& why);
   void report_capacities();
   void carry_out(const Action& action);
-  void carry_out(const structure::CapacityChange& change);
+  /// What is drawn of it, and shown of capacities: `at` s since the start.
+  void follow(const structure::Tool& tool, double at);
+  void follow(const structure::CapacityChange& change);
   /// `record`: what is passed on the way is not in the recording yet.
   void run_again(std::int64_t until, bool record = false);
   /// The ground shakes, or a rope is pulled.
@@ -117,6 +127,7 @@ class Session {
   Wanted wanted_;
   std::vector<Action> actions_;
   std::shared_ptr<Recording> recording_;
+  std::optional<structure::StateStore> states_;
   std::size_t events_recorded_ = 0;
   std::optional<Shaking> shaking_;
   std::vector<Pulling> pulling_;

@@ -85,6 +85,10 @@ void draw_timeline(Controller& controller, const Snapshot& moment, glm::dvec2 sc
   ImGui::SameLine();
   if (ImGui::Button("Go on from here")) controller.playback().go_on_from_here();
   ImGui::SameLine();
+  if (span[0] > 0) {
+    if (ImGui::Button("Way here")) controller.playback().record_way();
+    ImGui::SameLine();
+  }
   const auto events = controller.driver().recording().events();
   ImGui::Text("%.2f s of %.2f s, %zu events%s", moment.time, span[1], events.size(), back ? ", looking back" : "");
   auto time = static_cast<float>(moment.time);

@@ -285,7 +285,8 @@ bool run_scene(const Window& window, Input& input, WindowInterface& interface, c
   const std::shared_future<void> seen = drawn.get_future().share();
   ThreadDriver driver(*scene.building, scene.scenario.step, [&scene, seen](std::shared_ptr<Recording> recording) {
     seen.wait();
-    return std::make_unique<Session>(scene.building, scene.scenario, scene.drawn, std::move(recording));
+    return std::make_unique<Session>(scene.building, scene.scenario, scene.drawn, std::move(recording),
+                                     structure::StateStore::of_user());
   });
   FirstPicture first(drawn);
   Controller controller(driver, scene, ground, window.size());

@@ -36,6 +36,10 @@ void Playback::seek_present() {
   replaying_ = false;
 }
 
+void Playback::record_way() {
+  driver_.order_and_show([](Session& session) { session.record_way(); });
+}
+
 void Playback::go_on_from_here() {
   if (!looking_at_) return;
   const std::int64_t step = driver_.recording().at(*looking_at_).step;
