@@ -16,8 +16,8 @@ class EnergyLedger {
 
   /// The motion or the matrices are others.
   void forget_products() { known_ = false; }
-  /// M u, M v and M a of a motion, by rows.
-  [[nodiscard]] const SideBySide<4>& mass_products(const FrameSystem& system, const MotionState& motion);
+  /// Of a motion, by rows: M u, M v, M a, 0, (K + s M) u, (K + s M) v, 0, 0.
+  [[nodiscard]] const SideBySide<8>& products(const FrameSystem& system, const MotionState& motion);
   /// What is stored in a motion: 1/2 v'Mv + 1/2 u'Ku + `of_kinks`.
   double store(const FrameSystem& system, const MotionState& motion, double of_kinks);
 
@@ -34,7 +34,7 @@ class EnergyLedger {
   template <class Archive>
   void serialize(Archive& archive) {
     // Products with the motion are found again with the same bits; all that follows them is of one substep alone.
-    auto& [energy, mass_products, matrix_products, known, s, old_products, moved, motion_columns, moved_columns] = *this;
+    auto& [energy, products, known, s, old_products, moved, motion] = *this;
     if constexpr (Archive::is_loading::value) known = false;
     archive(energy);
   }
@@ -44,15 +44,12 @@ class EnergyLedger {
   void book_numerical(const MotionState& start, const MotionState& end, const GeneralizedAlpha& method);
 
   DynamicEnergy energy_;
-  SideBySide<4> mass_products_;    ///< M u, M v, M a
-  SideBySide<2> matrix_products_;  ///< (K + s M) u, (K + s M) v
+  SideBySide<8> products_;
   bool known_ = false;
   double s_ = 0;                ///< of these products
   SideBySide<2> old_products_;  ///< M a and K u at the start of the substep that was accounted last
   Eigen::VectorXd moved_;       ///< in it
-  // Scratch.
-  SideBySide<4> motion_columns_;
-  SideBySide<2> moved_columns_;
+  SideBySide<8> motion_;        ///< scratch
 };
 
 }  // namespace topple::solver

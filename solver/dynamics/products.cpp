@@ -1,5 +1,7 @@
 #include "dynamics/products.h"
 
+#include "factor/vector_versions.h"
+
 namespace topple::solver {
 
 template <int Width>
@@ -22,7 +24,35 @@ void multiply(const SparseSymmetric& A, const SideBySide<Width>& X, SideBySide<W
 }
 
 template void multiply<1>(const SparseSymmetric&, const SideBySide<1>&, SideBySide<1>&);
-template void multiply<2>(const SparseSymmetric&, const SideBySide<2>&, SideBySide<2>&);
-template void multiply<4>(const SparseSymmetric&, const SideBySide<4>&, SideBySide<4>&);
+
+namespace {
+
+TOPPLE_VECTOR_VERSIONS void add_products(const SparseSymmetric& A, const SparseSymmetric& B, const double* X,
+                                         double* Y) {
+  using Vector = EightLanes::Vector;
+  const std::int64_t* start = A.start.data();
+  const std::int32_t* row = A.row.data();
+  const double *a = A.value.data(), *b = B.value.data();
+  for (std::int32_t c = 0; c < A.size; ++c) {
+    std::int64_t k = start[c];
+    const Vector at = lanes_at<EightLanes>(X + 8 * std::ptrdiff_t{c});
+    const Vector diagonal = {a[k], a[k], a[k], a[k], b[k], b[k], b[k], b[k]};
+    Vector sum = diagonal * at;
+    for (++k; k < start[c + 1]; ++k) {
+      const std::ptrdiff_t place = 8 * std::ptrdiff_t{row[k]};
+      const Vector value = {a[k], a[k], a[k], a[k], b[k], b[k], b[k], b[k]};
+      sum += value * lanes_at<EightLanes>(X + place);
+      lanes_at<EightLanes>(Y + place) += value * at;
+    }
+    lanes_at<EightLanes>(Y + 8 * std::ptrdiff_t{c}) += sum;
+  }
+}
+
+}  // namespace
+
+void multiply_by_two(const SparseSymmetric& A, const SparseSymmetric& B, const SideBySide<8>& X, SideBySide<8>& Y) {
+  Y.setZero(8, A.size);
+  add_products(A, B, X.data(), Y.data());
+}
 
 }  // namespace topple::solver

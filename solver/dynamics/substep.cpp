@@ -16,7 +16,7 @@ void FrameDynamics::State::advance_first_order(const JointLaw* law) {
   kinks.add_start(system(), collocated_load);
   if (options.second_order) geometric.add_to(method.af, collocated_load);
   equation.set(system(), method, options.damping, before, collocated_load,
-               options.keep_energy ? &ledger.mass_products(system(), before) : nullptr);
+               options.keep_energy ? &ledger.products(system(), before) : nullptr);
   core().solve_as_it_stands(equation.w());
   find_end();
   if (law != nullptr) yield(law->plastic_hinges());

@@ -3,16 +3,16 @@
 namespace topple::solver {
 
 void SubstepEquation::set(const FrameSystem& system, const GeneralizedAlpha& method, const RayleighDamping& damping,
-                          const MotionState& start, const Eigen::VectorXd& load, const SideBySide<4>* mass_products) {
+                          const MotionState& start, const Eigen::VectorXd& load, const SideBySide<8>* products) {
   const double h = method.h, am = method.am, af = method.af, a0 = damping.mass, a1 = damping.stiffness;
   const double by_v = (1 - af) * h + a1;
   const double by_a = (1 - af) * h * h * (0.5 - method.beta) + a1 * (1 - af) * h * (1 - method.gamma);
   q_ = start.u + by_v * start.v + by_a * start.a;
   w_ = load;
   const double foreseen = (1 - af) * h;
-  if (mass_products != nullptr) {
-    w_ += (method.s * mass_products->row(0) + (method.s * by_v - a0) * mass_products->row(1) +
-           (method.s * by_a - am - a0 * foreseen) * mass_products->row(2))
+  if (products != nullptr) {
+    w_ += (method.s * products->row(0) + (method.s * by_v - a0) * products->row(1) +
+           (method.s * by_a - am - a0 * foreseen) * products->row(2))
               .transpose();
   } else {
     z_ = (method.s * q_ - am * start.a - a0 * (start.v + foreseen * start.a)).transpose();

@@ -11,10 +11,10 @@ namespace topple::solver {
 
 class SubstepEquation {
  public:
-  /// From the motion at the start and the load, both scaled. `mass_products`: M u, M v and M a of that motion by rows,
+  /// From the motion at the start and the load, both scaled. `products`: of that motion, as EnergyLedger has them,
   /// where they are known; else null.
   void set(const FrameSystem& system, const GeneralizedAlpha& method, const RayleighDamping& damping,
-           const MotionState& start, const Eigen::VectorXd& load, const SideBySide<4>* mass_products);
+           const MotionState& start, const Eigen::VectorXd& load, const SideBySide<8>* products);
   /// The right-hand side, to be solved in place.
   [[nodiscard]] Eigen::VectorXd& w() { return w_; }
   /// From w: the motion at the substep's end.
