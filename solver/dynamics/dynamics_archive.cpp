@@ -68,8 +68,8 @@ void FrameDynamics::State::Jumps::load_from(std::istream& from, const FrameSyste
 }
 
 void FrameDynamics::save_state(std::ostream& to) const {
-  // Of the options damping alone changes, of inertia its factor, which is the method's. The load that acts in a substep,
-  // the geometric one and the equation are found in each substep anew.
+  // Of the options damping alone changes, of inertia its factor, which is the method's. The load that acts in a
+  // substep, the geometric one and the equation are found in each substep anew.
   const auto& [options, method, inertia, frame, patterns, kinks, time, before, now, accepted, started_at, nodes,
                reactions, ledger, constant_load, collocated_load, substep_load, geometric, changed, waiting, jumps,
                prepared, counters, breaks, equation] = *state_;

@@ -131,8 +131,7 @@ void LowRankCorrection::load(Archive& archive) {
     Eigen::MatrixXd block;
     archive(block);
     gram_.block(other.first, place.first, other.W.cols(), place.W.cols()) = block;
-    if (&other != &place)
-      gram_.block(place.first, other.first, place.W.cols(), other.W.cols()) = block.transpose();
+    if (&other != &place) gram_.block(place.first, other.first, place.W.cols(), other.W.cols()) = block.transpose();
   });
 }
 

@@ -47,7 +47,7 @@ bool FactorRefresh::go_on(ReanalysisWork& work) {
 
 bool FactorRefresh::finish(ReanalysisWork& work) { return factor_ || (making_ && receive(work)); }
 
-FactorRefresh::Made FactorRefresh::release() { 
+FactorRefresh::Made FactorRefresh::release() {
   return {std::move(factor_), std::move(base_), condition_, std::move(values_)};
 }
 

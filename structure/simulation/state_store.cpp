@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
+#include <stdexcept>
 #include <system_error>
 #include <vector>
 
@@ -146,6 +147,7 @@ bool StateStore::load(const Snapshot& snapshot, Simulation& simulation) const {
   } catch (const std::runtime_error&) {
     return false;
   }
+  if (simulation.hash() != snapshot.hash) throw std::logic_error("a kept state has not the hash of its snapshot");
   std::error_code gone;
   fs::last_write_time(path, fs::file_time_type::clock::now(), gone);  // it was used
   return true;
