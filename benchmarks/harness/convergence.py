@@ -1,5 +1,5 @@
-"""Whether the outcome of a collapse hangs on the length of the step: distributions over inputs that are moved a little, the same ones at
-every length."""
+"""Whether the outcome of a collapse hangs on the length of the step, or on the substeps in it: distributions over inputs that are moved a
+little, the same ones at every length."""
 
 import concurrent.futures
 import json
@@ -9,6 +9,7 @@ import random
 import re
 import statistics
 import subprocess
+import types
 
 import output
 import scatter
@@ -17,19 +18,26 @@ import scatter
 # Of the hits with a mass in their names some bring all down and some do not: there the test has power.
 SCENARIOS = [("seed_hit", 128, 12), ("seed_hit_500", 128, 12), ("tower_hit", 128, 12), ("tower_hit_2000", 128, 12), ("house_hit", 128, 12), ("house_hit_65", 128, 12),
              ("bridge_hit", 128, 12), ("tower_fire", 12, 2)]
-STEPS = [30, 60, 120, 240, 480]  # a second
-COARSE, FINE = 60, 240           # compared with each other
+RATE = 60  # steps a second, unless a scenario says otherwise
+# What is made finer, and which two of its values are compared. The default has 8 substeps of 1/480 s at 60 steps a second.
+STEPS = types.SimpleNamespace(name="steps", title="steps a second", values=[30, 60, 120, 240, 480], coarse=60, fine=240, says="%d steps a second")
+SUBSTEPS = types.SimpleNamespace(name="substeps", title="substeps of 1/60 s", values=[4, 8, 16, 32], coarse=8, fine=32, says="%d substeps of 1/60 s")
 ASKED_SHARE, ASKED_TIME, ASKED_P = 0.12, 0.10, 0.01
 RESAMPLES = 4000
 
-COLUMNS = [("scenario", "scenario"), ("rate", "steps a second"), ("samples", "samples"), ("share", "share of members down"), ("share_error", "standard error"),
+OUTCOMES = [("samples", "samples"), ("share", "share of members down"), ("share_error", "standard error"),
            ("half", "half of them down, s"), ("half_error", "standard error"), ("joints", "joints broken"), ("joints_error", "standard error"),
            ("rest", "at rest, s"), ("failed", "runs that failed")]
 
-TEXT = ("Each sample moves the projectile's line sideways by up to %g m and up or down by up to %g m (or scatters the strength that a fire leaves by a fiftieth); the same samples are run at every "
-        "length of step. Who falls on whom hangs on the last bit, so that single runs cannot agree: what is compared is the distribution. The 90 %% interval of the difference of mean shares between "
-        "1/%d and 1/%d s is by bootstrap over inputs; the permutation test exchanges the two within each input and takes the largest standardised difference over all scenarios and both quantities."
-        % (scatter.SIDEWAYS, scatter.UP, COARSE, FINE))
+
+
+def columns(finer):
+    return [("scenario", "scenario"), ("value", finer.title)] + OUTCOMES
+
+
+TEXT = ("Each sample moves the projectile's line sideways by up to %g m and up or down by up to %g m (or scatters the strength that a fire leaves by a fiftieth); the same samples are run with each "
+        "number of %s. Who falls on whom hangs on the last bit, so that single runs cannot agree: what is compared is the distribution. The 90 %% interval of the difference of mean shares between "
+        "%d and %d is by bootstrap over inputs; the permutation test exchanges the two within each input and takes the largest standardised difference over all scenarios and both quantities.")
 
 
 def members_of(context, scenario):
@@ -52,22 +60,25 @@ def half_down(events, down):
     return None
 
 
-def write_scenario(context, path, scenario, rate, sample, seed):
-    """The input of one run: its scatter, and so many steps a second."""
+def write_scenario(context, path, scenario, rate, sample, seed, substeps=None):
+    """The input of one run: its scatter, so many steps a second, and so many substeps in each (none: as by default)."""
     content = scatter.moved(context.root, scenario, seed, sample)
     content["step"] = 1.0 / rate
+    if substeps is not None:
+        content["dynamics"] = {**content.get("dynamics", {}), "substeps": substeps}
     content["model"] = os.path.join(context.root, "models", content["model"] + ".json")
     with open(path, "w", encoding="utf-8") as out:
         json.dump(content, out)
 
 
-def run_one(context, scenario, rate, sample, seed):
+def run_one(context, finer, scenario, value, sample, seed):
     """One collapse: what came of it, or why it failed."""
-    name = "%s-%d-%d" % (scenario, rate, sample)
+    name = "%s-%s-%d-%d" % (scenario, finer.name, value, sample)
     folder = os.path.join(context.results, "convergence", name)
     os.makedirs(folder)
     path = os.path.join(folder, "scenario.json")
-    write_scenario(context, path, scenario, rate, sample, seed)
+    rate, substeps = (value, None) if finer is STEPS else (RATE, value)
+    write_scenario(context, path, scenario, rate, sample, seed, substeps)
     done = subprocess.run([os.path.join(context.programs, "topple"), "demolish", path, "-o", folder], capture_output=True, text=True)
     if done.returncode != 0:
         return {"failed": done.stderr.strip()[-300:]}
@@ -123,12 +134,12 @@ def permutation_p(groups, draw):
     return (as_large + 1) / (RESAMPLES + 1)
 
 
-def rows_of(scenario, members, found, rates, samples):
+def rows_of(scenario, members, found, values, samples):
     rows = []
-    for rate in rates:
-        runs = [found[(scenario, rate, sample)] for sample in range(samples)]
+    for value in values:
+        runs = [found[(scenario, value, sample)] for sample in range(samples)]
         good = [run for run in runs if "failed" not in run]
-        row = {"scenario": scenario, "rate": rate, "samples": samples, "failed": len(runs) - len(good)}
+        row = {"scenario": scenario, "value": value, "samples": samples, "failed": len(runs) - len(good)}
         row["share"], row["share_error"] = mean_and_error([run["down"] / members for run in good])
         for key in ("half", "joints", "rest"):
             row[key], row[key + "_error"] = mean_and_error([run[key] for run in good])
@@ -136,22 +147,22 @@ def rows_of(scenario, members, found, rates, samples):
     return rows
 
 
-def pairs(scenario, found, samples, key):
-    both = [(found[(scenario, COARSE, k)], found[(scenario, FINE, k)]) for k in range(samples)]
+def pairs(finer, scenario, found, samples, key):
+    both = [(found[(scenario, finer.coarse, k)], found[(scenario, finer.fine, k)]) for k in range(samples)]
     return [(a[key], b[key]) for a, b in both if a.get(key) is not None and b.get(key) is not None]
 
 
-def judge(context, names, members, found, counts, draw):
+def judge(context, finer, names, members, found, counts, draw):
     """What is asked of every scenario, in words; what is not as it must be goes to context.broken."""
     lines, groups = [], []
     for scenario in names:
-        shares = [(a - b) / members[scenario] for a, b in pairs(scenario, found, counts[scenario], "down")]
-        times = pairs(scenario, found, counts[scenario], "half")
+        shares = [(a - b) / members[scenario] for a, b in pairs(finer, scenario, found, counts[scenario], "down")]
+        times = pairs(finer, scenario, found, counts[scenario], "half")
         if not shares:
             context.broken.append("%s: no run to compare" % scenario)
             continue
         low, high = bootstrap_interval(shares, draw)
-        line = "%s: mean share down at 1/%d less at 1/%d s: %+.3f, 90 %% within %+.3f and %+.3f (asked: +-%g)" % (scenario, COARSE, FINE, statistics.fmean(shares), low, high, ASKED_SHARE)
+        line = "%s: mean share down with %s less with %d: %+.3f, 90 %% within %+.3f and %+.3f (asked: +-%g)" % (scenario, finer.says % finer.coarse, finer.fine, statistics.fmean(shares), low, high, ASKED_SHARE)
         worst = None
         if times:
             worst = statistics.fmean(a for a, _ in times) / statistics.fmean(b for _, b in times) - 1
@@ -169,36 +180,41 @@ FIGURE = """set logscale x
 unset logscale y
 set format y '%g'
 set format x '%g'
-set xlabel 'steps a second'
 set ylabel 'share of members down'
 set yrange [-0.05:1.05]
 set key outside right
 """
 
 
-def draw_figure(context, rows, names):
-    data = {"s%d" % i: [(row["rate"], row["share"], row["share_error"] or 0.0) for row in rows if row["scenario"] == name and row["share"] is not None] for i, name in enumerate(names)}
+def draw_figure(context, finer, rows, names):
+    data = {"s%d" % i: [(row["value"], row["share"], row["share_error"] or 0.0) for row in rows if row["scenario"] == name and row["share"] is not None] for i, name in enumerate(names)}
     lines = ", ".join("$s%d using 1:2:3 with yerrorlines title '%s' noenhanced" % (i, name) for i, name in enumerate(names))
-    path = output.plot(os.path.join(context.results, "convergence.svg"), FIGURE + "plot " + lines + "\n", data)
+    path = output.plot(os.path.join(context.results, result_name(finer) + ".svg"), FIGURE + "set xlabel '%s'\nplot " % finer.title + lines + "\n", data)
     return [path] if path else []
 
 
+def result_name(finer):
+    return "convergence" if finer is STEPS else "convergence_" + finer.name
+
+
 def run(context):
+    finer = SUBSTEPS if context.substeps else STEPS
     seed = context.provenance["commit"]
     names = context.scenarios or [name for name, _, _ in SCENARIOS if not (context.quick and name == "tower_fire")]
     counts = {name: context.samples or (quick if context.quick else whole) for name, whole, quick in SCENARIOS}
-    rates = STEPS[:-1] if context.quick else STEPS
+    values = finer.values[:-1] if context.quick and finer is STEPS else finer.values
     members = {name: members_of(context, name) for name in names}
-    jobs = [(name, rate, sample) for name in names for rate in rates for sample in range(counts[name])]
-    found = run_all(context, run_one, jobs, seed)
-    rows = [row for name in names for row in rows_of(name, members[name], found, rates, counts[name])]
+    jobs = [(finer, name, value, sample) for name in names for value in values for sample in range(counts[name])]
+    found = {job[1:]: outcome for job, outcome in run_all(context, run_one, jobs, seed).items()}
+    rows = [row for name in names for row in rows_of(name, members[name], found, values, counts[name])]
     failed = sorted({run["failed"] for run in found.values() if "failed" in run})
     context.broken += ["a run failed: " + why for why in failed]
-    lines = judge(context, names, members, found, counts, random.Random(seed))
+    lines = judge(context, finer, names, members, found, counts, random.Random(seed))
     residual = max((run["residual"] for run in found.values() if "failed" not in run), default=0.0)
     lines.append("largest residual of the ledger over all runs: %.2g %% (asked: 0.5 %%)" % (100 * residual))
     for line in lines:
         print("bench: " + line)
-    output.print_table(rows, COLUMNS)
-    output.write_results(context, "convergence", rows, COLUMNS, ("scenario", "rate"), lines)
-    return [("Outcomes against the length of the step", TEXT, draw_figure(context, rows, names), (rows, COLUMNS))]
+    output.print_table(rows, columns(finer))
+    output.write_results(context, result_name(finer), rows, columns(finer), ("scenario", "value"), lines)
+    text = TEXT % (scatter.SIDEWAYS, scatter.UP, finer.title, finer.coarse, finer.fine)
+    return [("Outcomes against the number of " + finer.title, text, draw_figure(context, finer, rows, names), (rows, columns(finer)))]
