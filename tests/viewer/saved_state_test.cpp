@@ -62,7 +62,7 @@ TEST_CASE("a saved run whose state is kept is taken up without doing it again, w
   other.go(60);
   CHECK(other.session.simulation().hash() == first.session.simulation().hash());
 
-  other.driver.order_and_show([](Session& session) { session.record_way(); });
+  other.driver.order_and_show([](Session& session) { session.record_past(); });
   CHECK(other.session.recording()->span()[0] == 0);
   CHECK(other.session.simulation().hash() == first.session.simulation().hash());
   CHECK(other.session.recording()->events().size() == first.session.recording()->events().size());

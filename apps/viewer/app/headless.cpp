@@ -217,7 +217,7 @@ class HeadlessRun {
                             controller_.shake();
                           },
                           [&](const LookAction& a) {
-                            if (a.time && *a.time < driver_.recording().span()[0]) controller_.playback().record_way();
+                            if (a.time && *a.time < driver_.recording().span()[0]) controller_.playback().record_past();
                             a.time ? controller_.playback().seek(*a.time) : controller_.playback().seek_present();
                           },
                           [&](const GoOnAction&) { controller_.playback().go_on_from_here(); },

@@ -255,7 +255,7 @@ void Session::end_shaking() {
   apply(structure::GravityTool{structure::Vec3(0, 0, gravity_at_rest().z())});
 }
 
-void Session::record_way() {
+void Session::record_past() {
   if (recording_->span()[0] <= 0) return;
   recording_->clear();
   run_again(simulation_->steps(), true);

@@ -61,9 +61,9 @@ class Session {
   /// Takes the run up where it was saved: at once where its state is kept, else by doing what was done then. When that
   /// does not lead there (another model, other rules), the run begins anew and its events say so.
   void load(const structure::Snapshot& saved);
-  /// Makes the way here again where it was not recorded (a state was loaded), so that it can be looked back at; no
-  /// effect where it was.
-  void record_way();
+  /// Runs again from the beginning where that was not recorded (a state was loaded), so that it can be looked back at;
+  /// no effect where it was.
+  void record_past();
   /// Finds which share of a downward force put here goes through each joint; snapshots carry it from now on.
   void find_path(const structure::ContactPlace& place);
 

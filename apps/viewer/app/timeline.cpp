@@ -86,7 +86,7 @@ void draw_timeline(Controller& controller, const Snapshot& moment, glm::dvec2 sc
   if (ImGui::Button("Go on from here")) controller.playback().go_on_from_here();
   ImGui::SameLine();
   if (span[0] > 0) {
-    if (ImGui::Button("Way here")) controller.playback().record_way();
+    if (ImGui::Button("Recompute past")) controller.playback().record_past();
     ImGui::SameLine();
   }
   const auto events = controller.driver().recording().events();

@@ -36,8 +36,8 @@ void Playback::seek_present() {
   replaying_ = false;
 }
 
-void Playback::record_way() {
-  driver_.order_and_show([](Session& session) { session.record_way(); });
+void Playback::record_past() {
+  driver_.order_and_show([](Session& session) { session.record_past(); });
 }
 
 void Playback::go_on_from_here() {

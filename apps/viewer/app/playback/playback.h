@@ -16,8 +16,9 @@ class Playback {
   void seek_by(double seconds);
   static constexpr double key_step = 0.25;  ///< s, of a key
   void seek_present();
-  /// Makes the way here again where it was not recorded (the run was loaded), so that it can be looked back at.
-  void record_way();
+  /// Runs again from the beginning where the past was not recorded (the run was loaded), so that it can be looked back
+  /// at.
+  void record_past();
   /// Plays on from what is looked at, or no more.
   void replay(bool on) { replaying_ = on; }
   [[nodiscard]] bool replaying() const { return replaying_; }
