@@ -31,7 +31,6 @@ class MomentLaw : public JointLaw {
   std::vector<PlasticHinge> hinges_;
 };
 
-
 using Step = std::function<void(FrameDynamics&, Record&)>;
 
 void read_energy(const FrameDynamics& frame, Record& record) {
@@ -81,25 +80,23 @@ void read_frame(const FrameDynamics& frame, Record& record) {
 /// Random things to do with a frame that moves.
 class Changes {
  public:
-  Changes(FrameModel model, const JointLaw& law, unsigned seed)
-      : model_(std::move(model)), law_(law), random_(seed) {}
+  Changes(FrameModel model, const JointLaw& law, unsigned seed) : model_(std::move(model)), law_(law), random_(seed) {}
 
   Step next() {
     switch (pick(24)) {
       case 0:
-        return change([beam = beam(), end = pick(2), to = stiffness()](FrameDynamics& f) {
-          f.set_end_stiffness(beam, end, to);
-        });
+        return change(
+            [beam = beam(), end = pick(2), to = stiffness()](FrameDynamics& f) { f.set_end_stiffness(beam, end, to); });
       case 1:
         return pick(2) == 0 ? next() : change([beam = beam()](FrameDynamics& f) { f.remove_beam(beam); });
       case 2:
         return change_plate();
       case 3:
-        return change([beam = beam(), factor = 0.5 + share()](FrameDynamics& f) {
-          f.set_beam_stiffness_factor(beam, factor);
-        });
+        return change(
+            [beam = beam(), factor = 0.5 + share()](FrameDynamics& f) { f.set_beam_stiffness_factor(beam, factor); });
       case 4:
-        return change([beam = beam(), density = 8e3 * share()](FrameDynamics& f) { f.set_beam_density(beam, density); });
+        return change(
+            [beam = beam(), density = 8e3 * share()](FrameDynamics& f) { f.set_beam_density(beam, density); });
       case 5:
         return change([support = pick(model_.supports.size()), to = support()](FrameDynamics& f) {
           f.set_support_stiffness(support, to);
@@ -149,7 +146,8 @@ class Changes {
     if (model_.patches.empty()) return next();
     if (pick(2) == 0)
       return change([k = 1e7 * share()](FrameDynamics& f) { f.set_patch_stiffness(0, patch_of_springs(3, k)); });
-    return change([m = 1e3 * share()](FrameDynamics& f) { f.set_patch_mass(0, m * Eigen::MatrixXd::Identity(18, 18)); });
+    return change(
+        [m = 1e3 * share()](FrameDynamics& f) { f.set_patch_mass(0, m * Eigen::MatrixXd::Identity(18, 18)); });
   }
   Step change_load() {
     const int i = beam();
@@ -193,9 +191,8 @@ class Changes {
                       FrameDynamics& f) { at_once ? f.jump_pattern(which, value) : f.set_pattern(which, value); });
   }
   Step strike() {
-    return change([some = impulses(), now = pick(2) == 0](FrameDynamics& f) {
-      now ? f.strike(some) : f.add_impulses(some);
-    });
+    return change(
+        [some = impulses(), now = pick(2) == 0](FrameDynamics& f) { now ? f.strike(some) : f.add_impulses(some); });
   }
   Step answer_impulses() {
     return [some = impulses(), others = impulses(), kind = pick(3)](FrameDynamics& f, Record& record) {

@@ -55,8 +55,7 @@ void read_structure(const Reanalysis& standing, Record& record) {
   }
   for (std::size_t i = 0; i < standing.model().patches.size(); ++i)
     record.add(standing.patch_forces(static_cast<int>(i)));
-  for (std::size_t i = 0; i < standing.model().supports.size(); ++i)
-    record.add(standing.reaction(static_cast<int>(i)));
+  for (std::size_t i = 0; i < standing.model().supports.size(); ++i) record.add(standing.reaction(static_cast<int>(i)));
   record.add(standing.strain_energy());
 }
 
@@ -69,17 +68,14 @@ class Changes {
     switch (pick(16)) {
       case 0:
       case 1:
-        return change([beam = beam(), end = pick(2), to = stiffness()](Reanalysis& r) {
-          r.set_end_stiffness(beam, end, to);
-        });
+        return change(
+            [beam = beam(), end = pick(2), to = stiffness()](Reanalysis& r) { r.set_end_stiffness(beam, end, to); });
       case 2:
-        return change([beam = beam(), back = pick(2) == 0](Reanalysis& r) {
-          back ? r.restore_beam(beam) : r.remove_beam(beam);
-        });
+        return change(
+            [beam = beam(), back = pick(2) == 0](Reanalysis& r) { back ? r.restore_beam(beam) : r.remove_beam(beam); });
       case 3:
-        return change([beam = beam(), factor = 0.1 + share()](Reanalysis& r) {
-          r.set_beam_stiffness_factor(beam, factor);
-        });
+        return change(
+            [beam = beam(), factor = 0.1 + share()](Reanalysis& r) { r.set_beam_stiffness_factor(beam, factor); });
       case 4:
         return change([support = pick(model_.supports.size()), to = support()](Reanalysis& r) {
           r.set_support_stiffness(support, to);
@@ -89,9 +85,8 @@ class Changes {
       case 6:
         return model_.patches.empty() ? next() : change_patch();
       case 7:
-        return change([node = node(), load = Vec6(unit(pick(3), 1e4 * share()))](Reanalysis& r) {
-          r.set_node_load(node, load);
-        });
+        return change(
+            [node = node(), load = Vec6(unit(pick(3), 1e4 * share()))](Reanalysis& r) { r.set_node_load(node, load); });
       case 8:
         return change_beam_load();
       case 9:
@@ -149,8 +144,7 @@ class Changes {
   }
   Step change_much() {
     std::vector<std::pair<int, double>> factors;
-    for (int i = 0; i < static_cast<int>(model_.beams.size()); i += 1 + pick(3))
-      factors.emplace_back(i, 0.5 + share());
+    for (int i = 0; i < static_cast<int>(model_.beams.size()); i += 1 + pick(3)) factors.emplace_back(i, 0.5 + share());
     return change([factors](Reanalysis& r) {
       for (const auto& [beam, factor] : factors) r.set_beam_stiffness_factor(beam, factor);
     });
