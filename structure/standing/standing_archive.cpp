@@ -14,7 +14,8 @@ namespace topple::structure {
 template <class Archive>
 void serialize(Archive& archive, TributaryLoads& handed) {
   auto& [beams, nodes, edge_force] = handed;
-  archive(beams, nodes, edge_force);
+  archive(beams, edge_force);
+  solver::archive_node_loads(archive, nodes);
 }
 
 template <class Archive>
