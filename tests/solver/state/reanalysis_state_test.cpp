@@ -45,6 +45,11 @@ void read_answer(const ReanalysisAnswer& answer, const Reanalysis& standing, Rec
   read_counters(standing, record);
 }
 
+void read_reactions(const Reanalysis& standing, Record& record) {
+  for (std::size_t i = 0; i < standing.model().supports.size(); ++i) record.add(standing.reaction(static_cast<int>(i)));
+}
+
+/// All but reactions.
 void read_structure(const Reanalysis& standing, Record& record) {
   record.add(standing.displacements());
   for (std::size_t i = 0; i < standing.model().beams.size(); ++i)
@@ -55,7 +60,6 @@ void read_structure(const Reanalysis& standing, Record& record) {
   }
   for (std::size_t i = 0; i < standing.model().patches.size(); ++i)
     record.add(standing.patch_forces(static_cast<int>(i)));
-  for (std::size_t i = 0; i < standing.model().supports.size(); ++i) record.add(standing.reaction(static_cast<int>(i)));
   record.add(standing.strain_energy());
 }
 
@@ -183,7 +187,7 @@ class Changes {
     };
   }
   Step look() {
-    const int kind = pick(5), somewhere = node();
+    const int kind = pick(6), somewhere = node();
     return [kind, somewhere](Subject& subject, Record& record) {
       Reanalysis& r = subject.standing;
       if (kind == 0) read_structure(r, record);
@@ -191,6 +195,7 @@ class Changes {
       if (kind == 2) r.complete(&subject.uses);
       if (kind == 3) r.forget_references();
       if (kind == 4) r.forget_utilisations();
+      if (kind == 5) read_reactions(r, record);
     };
   }
   Step lose_one_at_a_time() {
@@ -242,14 +247,19 @@ History history(unsigned seed) {
   result.steps.push_back([](Subject& subject, Record& record) {
     read_answer(subject.standing.solve(), subject.standing, record);
     read_structure(subject.standing, record);
+    read_reactions(subject.standing, record);
   });
   return result;
 }
 
-/// What is read of each of the steps from one on.
-std::vector<Record> go_on(Subject& subject, const History& history, std::size_t from = 0) {
+/// What is read of each of the steps from one on; in `looks` (unless null) what could be read before each.
+std::vector<Record> go_on(Subject& subject, const History& history, std::size_t from = 0,
+                          std::vector<Record>* looks = nullptr) {
   std::vector<Record> records;
-  for (std::size_t i = from; i < history.steps.size(); ++i) history.steps[i](subject, records.emplace_back());
+  for (std::size_t i = from; i < history.steps.size(); ++i) {
+    if (looks != nullptr) read_structure(subject.standing, looks->emplace_back());
+    history.steps[i](subject, records.emplace_back());
+  }
   return records;
 }
 
@@ -266,7 +276,8 @@ TEST_CASE("A structure that is loaded at any moment of its history answers from 
     INFO("seed " << seed);
     const History whole = history(seed);
     const auto plain = whole.begin(), saved = whole.begin();
-    const std::vector<Record> expected = go_on(*plain, whole);
+    std::vector<Record> looks;
+    const std::vector<Record> expected = go_on(*plain, whole, 0, &looks);
     std::vector<Moment> moments;
     for (std::size_t i = 0; i < whole.steps.size(); ++i) {
       moments.push_back({bytes_of(saved->standing), saved->uses.use});
@@ -283,9 +294,13 @@ TEST_CASE("A structure that is loaded at any moment of its history answers from 
       const std::size_t at = random() % moments.size();
       auto fresh = whole.begin();
       Subject& loaded = load % 2 == 0 ? *fresh : *used_before;
+      INFO("loaded before step " << at);
+      load_bytes(loaded.standing, moments[at].bytes);
+      Record look;
+      read_structure(loaded.standing, look);
+      REQUIRE(look == looks[at]);
       load_bytes(loaded.standing, moments[at].bytes);
       loaded.uses.use = moments[at].uses;
-      INFO("loaded before step " << at);
       REQUIRE(bytes_of(loaded.standing) == moments[at].bytes);
       const std::vector<Record> records = go_on(loaded, whole, at);
       for (std::size_t i = 0; i < records.size(); ++i) {
