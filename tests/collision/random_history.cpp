@@ -286,7 +286,8 @@ void RandomHistory::step() {
   ++steps_;
 }
 
-void RandomHistory::require_alike() const {
+void RandomHistory::require_alike() {
+  forget_gone_joints();
   const Beside& one = all_.front();
   const std::string state = all_.size() > 1 ? saved(*one.world) : std::string();
   for (const Beside& other : std::span(all_).subspan(1)) {
@@ -309,7 +310,6 @@ void RandomHistory::go_on() {
   if (steps_ / 75 % 2 == 0 || random_() % 40 == 0) change();
   if (random_() % 3 == 0) ask();
   step();
-  forget_gone_joints();
   require_alike();
 }
 

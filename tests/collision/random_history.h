@@ -31,8 +31,10 @@ class RandomHistory {
   [[nodiscard]] World& first() { return *all_.front().world; }
   /// Calls and a step; what is asked of one world and another is the same to the bit.
   void go_on();
+  /// A call.
+  void change();
   /// All that worlds tell and save.
-  void require_alike() const;
+  void require_alike();
   [[nodiscard]] bool sways() const { return all_.front().structure.sways; }
   [[nodiscard]] std::size_t joint_count() const { return hinges_.size() + cables_.size(); }
 
@@ -46,7 +48,6 @@ class RandomHistory {
   template <class Call>
   auto each(const Call& call);
   [[nodiscard]] BodyDescription any_description();
-  void change();
   void change_bodies();
   void change_obstacles();
   void change_joints();

@@ -58,7 +58,7 @@ TEST_CASE("a saved run whose state is kept is taken up without doing it again, w
   CHECK(other.session.recording()->events().size() > 3);
   CHECK(other.session.actions() == 2);
   REQUIRE(other.driver.moment().later->tuned);
-  CHECK(other.driver.moment().later->tuned->strength[0] == first.driver.moment().later->tuned->strength[0]);
+  CHECK(other.driver.moment().later->tuned->capacity[0].value == first.driver.moment().later->tuned->capacity[0].value);
   other.go(60);
   CHECK(other.session.simulation().hash() == first.session.simulation().hash());
 

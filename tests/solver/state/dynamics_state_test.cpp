@@ -87,7 +87,7 @@ class Changes {
   Changes(FrameModel model, const JointLaw& law, unsigned seed) : model_(std::move(model)), law_(law), random_(seed) {}
 
   Step next() {
-    switch (pick(24)) {
+    switch (pick(25)) {
       case 0:
         return change(
             [beam = beam(), end = pick(2), to = stiffness()](FrameDynamics& f) { f.set_end_stiffness(beam, end, to); });
@@ -121,6 +121,8 @@ class Changes {
         return answer_impulses();
       case 13:
         return look();
+      case 14:
+        return release_node();
       default:
         return advance();
     }
@@ -140,6 +142,16 @@ class Changes {
     return [made](FrameDynamics& frame, Record&) { made(frame); };
   }
 
+  /// Nothing keeps it from turning, or at all.
+  Step release_node() {
+    const Vec6 to = pick(2) == 0 ? pinned() : Vec6(Vec6::Zero());
+    return change([node = node(), to](FrameDynamics& f) {
+      for (int i = 0; i < static_cast<int>(f.model().beams.size()); ++i)
+        for (int end = 0; end < 2; ++end)
+          if (f.model().beams[static_cast<std::size_t>(i)].node[static_cast<std::size_t>(end)] == node)
+            f.set_end_stiffness(i, end, to);
+    });
+  }
   Step change_plate() {
     if (!model_.shells.empty() && pick(2) == 0) {
       const int shell = pick(model_.shells.size());
@@ -269,6 +281,7 @@ History history(unsigned seed) {
   result.steps.push_back([](FrameDynamics& frame, Record& record) {
     read_frame(frame, record);
     read_reactions(frame, record);
+    record.add(frame.work_of_present_loads());
   });
   return result;
 }

@@ -11,6 +11,8 @@ struct FrameParts {
   bool walls = false, patch = false, diaphragm = false;
 };
 
+inline Vec6 pinned() { return components(rigid, rigid, rigid, 0, 0, 0); }
+
 /// The same stiffness between any two of the nodes, in every freedom.
 inline Eigen::MatrixXd patch_of_springs(std::size_t nodes, double stiffness) {
   const auto size = static_cast<Eigen::Index>(6 * nodes);

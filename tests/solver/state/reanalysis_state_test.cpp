@@ -51,6 +51,8 @@ void read_reactions(const Reanalysis& standing, Record& record) {
 
 /// All but reactions.
 void read_structure(const Reanalysis& standing, Record& record) {
+  record.add(standing.last_operations());
+  record.add(standing.selective_effort().largest_left_out);
   record.add(standing.displacements());
   for (std::size_t i = 0; i < standing.model().beams.size(); ++i)
     record.add(standing.beam_end_forces(static_cast<int>(i)));
@@ -69,7 +71,7 @@ class Changes {
   Changes(FrameModel model, unsigned seed) : model_(std::move(model)), random_(seed) {}
 
   Step next() {
-    switch (pick(16)) {
+    switch (pick(19)) {
       case 0:
       case 1:
         return change(
@@ -85,6 +87,7 @@ class Changes {
           r.set_support_stiffness(support, to);
         });
       case 5:
+      case 14:
         return model_.shells.empty() ? next() : change_shell();
       case 6:
         return model_.patches.empty() ? next() : change_patch();
@@ -101,6 +104,8 @@ class Changes {
         return look();
       case 12:
         return lose_one_at_a_time();
+      case 13:
+        return release_node();
       default:
         return solve();
     }
@@ -125,6 +130,16 @@ class Changes {
     return [made](Subject& subject, Record&) { made(subject.standing); };
   }
 
+  /// Nothing keeps it from turning, or at all.
+  Step release_node() {
+    const Vec6 to = pick(2) == 0 ? pinned() : Vec6(Vec6::Zero());
+    return change([node = node(), to](Reanalysis& r) {
+      for (int i = 0; i < static_cast<int>(r.model().beams.size()); ++i)
+        for (int end = 0; end < 2; ++end)
+          if (r.model().beams[static_cast<std::size_t>(i)].node[static_cast<std::size_t>(end)] == node)
+            r.set_end_stiffness(i, end, to);
+    });
+  }
   Step change_shell() {
     const int shell = pick(model_.shells.size()), kind = pick(4);
     return change([shell, kind, factor = 0.2 + share()](Reanalysis& r) {
@@ -154,16 +169,16 @@ class Changes {
     });
   }
 
-  /// What cannot stand leaves.
+  /// What cannot stand leaves, mostly.
   Step solve() {
-    const bool in_part = model_.patches.empty() && pick(2) == 0;
-    return [in_part](Subject& subject, Record& record) {
+    const bool in_part = model_.patches.empty() && pick(2) == 0, lets_go = pick(4) != 0;
+    return [in_part, lets_go](Subject& subject, Record& record) {
       Reanalysis& r = subject.standing;
       constexpr int most_releases = 20;
       for (int release = 0; release < most_releases; ++release) {
         const ReanalysisAnswer answer = in_part ? r.solve(subject.uses) : r.solve();
         read_answer(answer, r, record);
-        if (answer.stable) break;
+        if (answer.stable || !lets_go) break;
         for (const int beam : answer.mechanism.beams)
           for (int end = 0; end < 2; ++end) r.set_end_stiffness(beam, end, Vec6::Zero());
         r.drop_nodes(answer.mechanism.nodes);
@@ -242,7 +257,7 @@ History history(unsigned seed) {
     result.rules.share = 0.5 + 2 * (seed % 4);
   }
   Changes changes(result.model, seed + 1000);
-  constexpr int steps = 60;
+  constexpr int steps = 80;
   for (int i = 0; i < steps; ++i) result.steps.push_back(changes.next());
   result.steps.push_back([](Subject& subject, Record& record) {
     read_answer(subject.standing.solve(), subject.standing, record);

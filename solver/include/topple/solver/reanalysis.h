@@ -193,8 +193,8 @@ class Reanalysis {
   /// factor under way in the background is not waited for. Bytes are for the same program alone.
   void save_state(std::ostream& to) const;
   /// Takes what was saved from one made with the same model and options, whatever this one has been through: both then
-  /// answer alike, to the bit, a watch that has read no less given. Only RefreshRules::on_worker stays its own. Throws
-  /// std::runtime_error where bytes are missing; after that this may be destroyed only.
+  /// answer alike, to the bit. RefreshRules::on_worker stays its own; what a watch has read is its owner's to keep.
+  /// Throws std::runtime_error where bytes are missing; after that this may be destroyed only.
   void load_state(std::istream& from);
 
  private:

@@ -24,6 +24,7 @@ std::function<Simulation()> frame(std::vector<Event> events, double duration,
     scenario.combination = CombinationId(0u);
     scenario.standing = standing;
     scenario.duration = duration;
+    scenario.until_rest = false;
     scenario.ground = 0;
     scenario.events = events;
     return Simulation(built.building, scenario);
@@ -111,6 +112,8 @@ TEST_CASE("a state goes on alike while a host shoots, touches and tunes, with wh
     }
     if (step % 5 == 0 && !simulation.bodies().empty()) {
       const BodyView& body = simulation.bodies()[static_cast<std::size_t>(step) % simulation.bodies().size()];
+      contact.key = 1000 + step;
+      contact.member = {};
       contact.body = body.id;
       contact.point = body.pose.position;
       contact.centre = body.pose.position - Vec3(1, 0, 0);
