@@ -18,6 +18,7 @@ struct StateLimits {
   std::uintmax_t all = std::uintmax_t{1024} << 20;  ///< beyond, those go that were used longest ago
 };
 
+/// Keeps states and finds them: files in one folder, one for each snapshot.
 class StateStore {
  public:
   /// `folder` is made, for this user alone, when something is kept first.
