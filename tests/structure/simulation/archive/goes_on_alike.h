@@ -21,8 +21,9 @@ void load(Simulation& simulation, const std::string& state);
 struct SavedRun {
   std::function<Simulation()> make;
   std::vector<double> moments;  ///< s, at which it is saved
-  /// What a host does before each step; it looks at nothing but the simulation.
-  std::function<void(Simulation&)> host = [](Simulation&) {};
+  /// What a host does before each step; it looks at nothing but the simulation. None: idle steps are passed over by who
+  /// loads a state.
+  std::function<void(Simulation&)> host{};
 };
 
 /// Runs it without being saved, with being saved at all moments, and from each state: the same hash at each step, the
