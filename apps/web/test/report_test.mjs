@@ -30,6 +30,7 @@ async function picture(page) {
 async function open(browser, report) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, offline: true });
   const page = await context.newPage();
+  page.setDefaultTimeout(120000);
   const complaints = [], requests = [];
   page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
   page.on('pageerror', (error) => complaints.push(String(error)));
@@ -89,6 +90,7 @@ async function exercise(browser, report) {
 async function printed(browser, report) {
   const context = await browser.newContext({ viewport: { width: 674, height: 900 }, offline: true });  // A4 less its margins
   const page = await context.newPage();
+  page.setDefaultTimeout(120000);
   await page.emulateMedia({ media: 'print' });
   await page.goto(`${pathToFileURL(report).href}#print`);
   await page.waitForFunction(() => document.querySelectorAll('#paper .chapter').length > 3, null, { timeout: 60000 });
