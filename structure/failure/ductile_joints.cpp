@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/index_of.h"
-#include "model/member_shape.h"
+#include "model/solved_member.h"
 
 namespace topple::structure {
 
@@ -122,7 +122,7 @@ double DuctileJoints::difference_energy(int component) const {
     if (segments_.label(member) < 0) continue;
     const solver::Vec12 force = statics_.end_forces(member) - end_forces_[index_of(member)];
     energy +=
-        MemberShape(statics_.beam(member), force, solver::Vec12::Zero(), mixed_loads(member, -1, 1)).strain_energy();
+        SolvedMember(statics_.beam(member), force, solver::Vec12::Zero(), mixed_loads(member, -1, 1)).strain_energy();
   }
   for (PanelId panel : statics_.plates(component)) {
     if (!statics_.stiff(panel)) continue;

@@ -6,7 +6,7 @@ namespace topple::structure {
 
 EdgeDemands::EdgeDemands(const Building& building, const PanelBearings& bearings, const FrameLoads& loads)
     : bearings_(bearings), loads_(loads), building_(building), states_(building.panels.size()) {
-  for (std::size_t p = 0; p < building.panels.size(); ++p) edges_.push_back(panel_edges(building, PanelId(p)));
+  for (std::size_t p = 0; p < building.panels.size(); ++p) edges_.push_back(panel_edge_axes(building, PanelId(p)));
 }
 
 void EdgeDemands::set_corner_forces(PanelId membrane, const std::array<Vec6, 4>& forces) {

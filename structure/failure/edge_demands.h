@@ -41,7 +41,7 @@ class EdgeDemands {
   const PanelBearings& bearings_;
   const FrameLoads& loads_;
   const Building& building_;
-  std::vector<PanelEdges> edges_;
+  std::vector<PanelEdgeAxes> edges_;
   std::vector<State> states_;
 };
 

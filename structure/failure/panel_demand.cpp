@@ -64,9 +64,9 @@ PanelStress mean_membrane_stress(const Building& building, PanelId id, const std
   return stress;
 }
 
-PanelEdges panel_edges(const Building& building, PanelId id) {
+PanelEdgeAxes panel_edge_axes(const Building& building, PanelId id) {
   const Panel& panel = building[id];
-  PanelEdges edges;
+  PanelEdgeAxes edges;
   for (std::size_t i = 0; i < 4; ++i) {
     edges.corner[i] = building[panel.nodes[i]].position - building[panel.nodes[0]].position;
     edges.axes[i] = edge_axes(building, panel, i);
@@ -75,7 +75,7 @@ PanelEdges panel_edges(const Building& building, PanelId id) {
   return edges;
 }
 
-std::array<Vec6, 4> membrane_edge_demands(const PanelEdges& edges, const std::array<Vec6, 4>& corner_forces) {
+std::array<Vec6, 4> membrane_edge_demands(const PanelEdgeAxes& edges, const std::array<Vec6, 4>& corner_forces) {
   Mat3 virial = Mat3::Zero();
   for (std::size_t corner = 0; corner < 4; ++corner)
     virial += corner_forces[corner].head<3>() * edges.corner[corner].transpose();
@@ -91,7 +91,7 @@ std::array<Vec6, 4> membrane_edge_demands(const PanelEdges& edges, const std::ar
 
 std::array<Vec6, 4> membrane_edge_demands(const Building& building, PanelId id,
                                           const std::array<Vec6, 4>& corner_forces) {
-  return membrane_edge_demands(panel_edges(building, id), corner_forces);
+  return membrane_edge_demands(panel_edge_axes(building, id), corner_forces);
 }
 
 std::array<Vec6, 4> panel_edge_demands(const Building& building, const PanelBearings& bearings, const FrameLoads& loads,

@@ -19,15 +19,15 @@ namespace topple::structure {
 
 /// What the traction on a panel's edges is found from: corners seen from the first one, axes of the edges (rows:
 /// outwards, along, normal), area.
-struct PanelEdges {
+struct PanelEdgeAxes {
   std::array<Vec3, 4> corner;
   std::array<Mat3, 4> axes;
   double area = 0;
 };
-[[nodiscard]] PanelEdges panel_edges(const Building& building, PanelId panel);
+[[nodiscard]] PanelEdgeAxes panel_edge_axes(const Building& building, PanelId panel);
 
 /// The same for the traction alone.
-[[nodiscard]] std::array<Vec6, 4> membrane_edge_demands(const PanelEdges& edges,
+[[nodiscard]] std::array<Vec6, 4> membrane_edge_demands(const PanelEdgeAxes& edges,
                                                         const std::array<Vec6, 4>& corner_forces);
 [[nodiscard]] std::array<Vec6, 4> membrane_edge_demands(const Building& building, PanelId panel,
                                                         const std::array<Vec6, 4>& corner_forces);

@@ -47,7 +47,7 @@ double JointAnswers::Watch::member_growth(MemberId member, const solver::Vec12& 
 
 /// Edge demands are linear in the corner forces: the sum of what each of their components can do.
 double JointAnswers::Watch::membrane_growth(PanelId membrane, const std::array<Vec6, 4>& root) {
-  const PanelEdges edges = panel_edges(state_.building, membrane);
+  const PanelEdgeAxes edges = panel_edge_axes(state_.building, membrane);
   std::array<Vec6, 4> most{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
   for (std::size_t corner = 0; corner < 4; ++corner) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {

@@ -14,12 +14,12 @@ constexpr double no_turn = 1e-6;
 }  // namespace
 
 /// The member as a mechanism carries it, without strain.
-MemberShape YieldingWay::carried_along(MemberId member, const FrameMechanism& mechanism) const {
+SolvedMember YieldingWay::carried_along(MemberId member, const FrameMechanism& mechanism) const {
   const auto& nodes = building_[member].nodes;
-  return MemberShape(from_.statics.beam(member), solver::Vec12::Zero(),
-                     from_.account.now().rigid_ends(member, mechanism.motion[index_of(nodes[0])],
-                                                    mechanism.motion[index_of(nodes[1])]),
-                     {});
+  return SolvedMember(from_.statics.beam(member), solver::Vec12::Zero(),
+                      from_.account.now().rigid_ends(member, mechanism.motion[index_of(nodes[0])],
+                                                     mechanism.motion[index_of(nodes[1])]),
+                      {});
 }
 
 /// `resisted`: what they hold does against a unit of the mechanism, J; `largest` of one of them.
@@ -30,7 +30,7 @@ YieldingWay::Turning YieldingWay::turning_in(int c, const FrameMechanism& mechan
   for (PlasticHinge& hinge : ductile_.hinges(c)) {
     if (!hinge.yields || !from_.parts.standing(hinge.joint)) continue;
     const Joint& own = building_[hinge.joint];
-    const MemberShape shape = carried_along(own.member, mechanism);
+    const SolvedMember shape = carried_along(own.member, mechanism);
     const double rate = shape.rigid_end(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis);
     turning.emplace_back(&hinge, rate);
     resisted += rate * hinge.held;

@@ -77,7 +77,7 @@ double YieldingWay::demand_in_base(const PlasticHinge& hinge) const {
 
 double YieldingWay::plastic_rotation_in_answer(const PlasticHinge& hinge) const {
   const Joint& own = building_[hinge.joint];
-  const MemberShape shape = from_.account.now().shape(own.member);
+  const SolvedMember shape = from_.account.now().shape(own.member);
   return shape.rigid_end(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis) - hinge.held / own.stiffness(hinge.axis);
 }
 

@@ -94,7 +94,7 @@ class YieldingWay {
   using Turning = std::vector<std::pair<PlasticHinge*, double>>;
   [[nodiscard]] Turning turning_in(int component, const FrameMechanism& mechanism, double& resisted, double& largest);
   [[nodiscard]] double work_of_loads(int component, const FrameMechanism& mechanism, double sign) const;
-  [[nodiscard]] MemberShape carried_along(MemberId member, const FrameMechanism& mechanism) const;
+  [[nodiscard]] SolvedMember carried_along(MemberId member, const FrameMechanism& mechanism) const;
   bool turn_on(int component, const Turning& turning, const FrameMechanism& mechanism, double sign, double gain);
   void move_base(int component, double part, double energy);
   void let_yield(PlasticHinge& hinge, double held);

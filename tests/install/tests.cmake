@@ -7,3 +7,8 @@ if(NOT TOPPLE_SANITIZE)
 endif()
 add_test(NAME "install: no leaf library sees another layer's headers"
          COMMAND "${CMAKE_CURRENT_LIST_DIR}/check_layers" "${PROJECT_SOURCE_DIR}" "${CMAKE_CXX_COMPILER}")
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND)
+  add_test(NAME "install: no two types of one namespace share a name"
+           COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/check_types.py" "${PROJECT_SOURCE_DIR}")
+endif()

@@ -7,7 +7,7 @@
 
 namespace topple::structure {
 
-const MemberShape& ChangeFromRest::shape_at_rest(MemberId member) {
+const SolvedMember& ChangeFromRest::shape_at_rest(MemberId member) {
   if (const auto found = shapes_.find(member); found != shapes_.end()) return found->second;
   return shapes_.emplace(member, rest_.shape(member)).first->second;
 }
@@ -55,7 +55,7 @@ void ChangeFromRest::drop(NodeId node) {
 }
 
 void ChangeFromRest::leave(MemberId member) {
-  const MemberShape& shape = shape_at_rest(member);
+  const SolvedMember& shape = shape_at_rest(member);
   sums_.left += shape.work(now_.loads.own(member), now_.local_gravity(member));
   sums_.freed += shape.strain_energy();
 }
@@ -168,7 +168,7 @@ double ChangeFromRest::load_changes() const {
   for (const auto& [member, loads] : member_loads_) {
     if (!now_.stands(member)) continue;
     const Vec3 down = now_.local_gravity(member);
-    const MemberShape &before = shapes_.at(member), now = now_.shape(member);
+    const SolvedMember &before = shapes_.at(member), now = now_.shape(member);
     const auto& loads_now = now_.applied[index_of(member)];
     sum += 0.5 * (before.work(loads_now, down).sum() + now.work(loads_now, down).sum() -
                   before.work(loads, down).sum() - now.work(loads, down).sum());

@@ -82,7 +82,7 @@ class ChangeFromRest {
     for (std::size_t i = 0; i < count; ++i) {
       MemberId member;
       archive(member);
-      shapes_.emplace(member, MemberShape::make(archive));
+      shapes_.emplace(member, SolvedMember::make(archive));
     }
     archive(openings_, supports_, membranes_, softened_, member_loads_, node_loads_, handed_, panels_, sums_);
   }
@@ -127,7 +127,7 @@ class ChangeFromRest {
     LoadWork standing, left;
   };
 
-  const MemberShape& shape_at_rest(MemberId member);
+  const SolvedMember& shape_at_rest(MemberId member);
   PanelAtRest& at_rest(PanelId panel);
   [[nodiscard]] Vec6 after(NodeId node) const;
   [[nodiscard]] double opened(const Opening& opening) const;
@@ -145,7 +145,7 @@ class ChangeFromRest {
 
   const SolvedFrame& now_;
   const StateOfRest& rest_;
-  std::map<MemberId, MemberShape> shapes_;  ///< at rest, of members that changed
+  std::map<MemberId, SolvedMember> shapes_;  ///< at rest, of members that changed
   std::vector<Opening> openings_;
   std::vector<SupportLoss> supports_;
   std::vector<MembraneLoss> membranes_;

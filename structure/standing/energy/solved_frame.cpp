@@ -38,7 +38,7 @@ solver::Vec12 SolvedFrame::rigid_ends(MemberId member) const {
   return rigid_ends(member, statics.displacement(nodes[0]), statics.displacement(nodes[1]));
 }
 
-MemberShape SolvedFrame::shape(MemberId member) const {
+SolvedMember SolvedFrame::shape(MemberId member) const {
   return {statics.beam(member), statics.elastic_end_forces(member),
           rigid_ends(member) - statics.plastic_rotations(member), applied[index_of(member)]};
 }

@@ -5,7 +5,7 @@
 
 #include "failure/segmentation.h"
 #include "loads/frame_loads.h"
-#include "model/member_shape.h"
+#include "model/solved_member.h"
 #include "standing/statics/frame_statics.h"
 
 namespace topple::structure {
@@ -37,7 +37,7 @@ struct SolvedFrame {
   [[nodiscard]] solver::Vec12 rigid_ends(MemberId member, const Vec6& first, const Vec6& second) const;
   /// The same by the answer.
   [[nodiscard]] solver::Vec12 rigid_ends(MemberId member) const;
-  [[nodiscard]] MemberShape shape(MemberId member) const;
+  [[nodiscard]] SolvedMember shape(MemberId member) const;
   /// Loads times displacements of all that stands of a component, contacts apart, J.
   [[nodiscard]] LoadWork load_work(int component) const;
 };

@@ -93,7 +93,7 @@ solver::Beam StateOfRest::beam(MemberId member) const {
   return beam;
 }
 
-MemberShape StateOfRest::shape(MemberId member) const {
+SolvedMember StateOfRest::shape(MemberId member) const {
   const OfMember& at_rest = members_[index_of(member)];
   const auto& nodes = now_.building[member].nodes;
   const solver::Vec12 at =

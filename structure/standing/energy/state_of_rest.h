@@ -46,7 +46,7 @@ class StateOfRest {
   [[nodiscard]] const std::map<std::int64_t, PlacedLoad>& contacts() const { return contacts_; }
   /// As it held.
   [[nodiscard]] solver::Beam beam(MemberId member) const;
-  [[nodiscard]] MemberShape shape(MemberId member) const;
+  [[nodiscard]] SolvedMember shape(MemberId member) const;
   /// By the stiffness that it has in the answer.
   [[nodiscard]] PanelAtRest panel(PanelId panel) const;
 

@@ -24,12 +24,12 @@ void serialize(Archive& archive, LoadWork& work) {
   archive(gravity, other);
 }
 
-class MemberShape {
+class SolvedMember {
  public:
   /// `beam` as it is in this state; `rigid_ends`: displacements of the nodes' rigid ends at the beam's ends, local
   /// axes.
-  MemberShape(const solver::Beam& beam, const solver::Vec12& end_forces, const solver::Vec12& rigid_ends,
-              std::vector<solver::BeamLoad> loads);
+  SolvedMember(const solver::Beam& beam, const solver::Vec12& end_forces, const solver::Vec12& rigid_ends,
+               std::vector<solver::BeamLoad> loads);
 
   [[nodiscard]] Vec6 rigid_end(int end) const { return rigid_ends_.segment<6>(6 * end); }
   /// Of the member's own end, behind its spring or broken joint; local axes.
@@ -44,7 +44,7 @@ class MemberShape {
   [[nodiscard]] double strain_energy() const;
   /// Internal forces of this state through the strains that those of another state make in this member, halved; without
   /// end springs.
-  [[nodiscard]] double mutual_energy(const MemberShape& other) const;
+  [[nodiscard]] double mutual_energy(const SolvedMember& other) const;
 
   /// What it was made of; make() makes it again.
   template <class Archive>
@@ -53,7 +53,7 @@ class MemberShape {
     archive(beam, end_forces, rigid_ends, loads);  // of which the diagram follows
   }
   template <class Archive>
-  [[nodiscard]] static MemberShape make(Archive& archive) {
+  [[nodiscard]] static SolvedMember make(Archive& archive) {
     solver::Beam beam;
     solver::Vec12 end_forces, rigid_ends;
     std::vector<solver::BeamLoad> loads;

@@ -1,4 +1,4 @@
-#include "model/member_shape.h"
+#include "model/solved_member.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,17 +28,17 @@ LoadWork work(const Vec6& load, const Vec6& displacement, const Vec3& gravity) {
   return split_work(load, displacement, gravity);
 }
 
-MemberShape::MemberShape(const solver::Beam& beam, const solver::Vec12& end_forces, const solver::Vec12& rigid_ends,
-                         std::vector<solver::BeamLoad> loads)
+SolvedMember::SolvedMember(const solver::Beam& beam, const solver::Vec12& end_forces, const solver::Vec12& rigid_ends,
+                           std::vector<solver::BeamLoad> loads)
     : beam_(beam),
       end_forces_(end_forces),
       rigid_ends_(rigid_ends),
       loads_(std::move(loads)),
       diagram_(beam_, end_forces_, loads_) {}
 
-Vec6 MemberShape::end(int end) const { return at(end == 0 ? 0 : beam_.length); }
+Vec6 SolvedMember::end(int end) const { return at(end == 0 ? 0 : beam_.length); }
 
-std::vector<double> MemberShape::cuts(std::span<const solver::BeamLoad> loads) const {
+std::vector<double> SolvedMember::cuts(std::span<const solver::BeamLoad> loads) const {
   std::vector<double> places{0, beam_.length};
   for (const std::span<const solver::BeamLoad> some : {std::span<const solver::BeamLoad>(loads_), loads})
     for (const solver::BeamLoad& load : some) {
@@ -51,7 +51,7 @@ std::vector<double> MemberShape::cuts(std::span<const solver::BeamLoad> loads) c
   return places;
 }
 
-LoadWork MemberShape::work(std::span<const solver::BeamLoad> loads, const Vec3& gravity) const {
+LoadWork SolvedMember::work(std::span<const solver::BeamLoad> loads, const Vec3& gravity) const {
   LoadWork sum;
   for (const solver::BeamLoad& load : loads)
     if (load.kind == solver::BeamLoad::Kind::point) sum += split_work(load.first, at(load.from), gravity);
@@ -73,14 +73,14 @@ LoadWork MemberShape::work(std::span<const solver::BeamLoad> loads, const Vec3& 
   return sum;
 }
 
-Vec6 MemberShape::stiffness() const {
+Vec6 SolvedMember::stiffness() const {
   const double E = beam_.youngs_modulus, G = beam_.shear_modulus;
   Vec6 stiffness;
   stiffness << E * beam_.area, G * beam_.shear_area_y, G * beam_.shear_area_z, G * beam_.J, E * beam_.Iy, E * beam_.Iz;
   return stiffness;
 }
 
-double MemberShape::mutual_energy(const MemberShape& other) const {
+double SolvedMember::mutual_energy(const SolvedMember& other) const {
   using Quantity = solver::BeamDiagram::Quantity;
   const Vec6 stiff = stiffness();
   double energy = 0;
@@ -98,7 +98,7 @@ double MemberShape::mutual_energy(const MemberShape& other) const {
   return energy;
 }
 
-double MemberShape::strain_energy() const {
+double SolvedMember::strain_energy() const {
   double energy = mutual_energy(*this);
   for (int f = 0; f < 12; ++f) {
     const double spring = beam_.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6);
