@@ -210,11 +210,11 @@ std::vector<Segmentation::Part> Segmentation::extract_unanchored() {
   std::sort(lost.begin(), lost.end(), [](const auto& a, const auto& b) { return a.front() < b.front(); });
   std::vector<Part> parts;
   parts.reserve(lost.size());
-  for (auto& vertices : lost) parts.push_back(part_of(std::move(vertices)));
+  for (const auto& vertices : lost) parts.push_back(part_of(vertices));
   return parts;
 }
 
-Segmentation::Part Segmentation::part_of(std::vector<int> vertices) const {
+Segmentation::Part Segmentation::part_of(const std::vector<int>& vertices) const {
   Part part;
   for (int v : vertices) {
     const auto index = static_cast<std::size_t>(v);

@@ -92,7 +92,7 @@ class Segmentation {
   bool step(std::vector<int>& queue, std::size_t& next, std::uint64_t mine, std::uint64_t theirs);
   void remove_vertex(int vertex_index);
   [[nodiscard]] std::vector<int> walk(int from);
-  [[nodiscard]] Part part_of(std::vector<int> vertices) const;
+  [[nodiscard]] Part part_of(const std::vector<int>& vertices) const;
 
   int nodes_ = 0, members_ = 0;
   std::vector<int> shell_vertex_;  ///< per panel, -1: not a vertex

@@ -371,9 +371,9 @@ class StandingFrame {
   /// All that has happened to it, changes that wait and what has not been handed out included, for load_state() of this
   /// very program. Between two calls, in motion as at rest; changes nothing.
   void save_state(std::ostream& to) const;
-  /// From then on this frame answers as the one that was saved, to the bit. It was made with the same arguments, and
-  /// its building is by now what that of the other one was then (capacities, see capacity_changed()). Throws
-  /// std::runtime_error where bytes are missing: it may then be destroyed only.
+  /// From then on this frame answers as the one that was saved, to the bit. It was made with the same arguments, has
+  /// lost nothing yet, and its building is by now what that of the other one was then (capacities, see
+  /// capacity_changed()). Throws std::runtime_error where bytes are missing: it may then be destroyed only.
   void load_state(std::istream& from);
 
  private:
