@@ -11,7 +11,7 @@ namespace {
 
 /// Of the lid's size: points closer together than this are one. Far below what a mesh resolves, since a joined point
 /// would leave an opening.
-constexpr double kTolerance = 1e-13;
+constexpr double kCapTolerance = 1e-13;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::vector<std::array<int, 3>> lid(const std::vector<Vec2>& points, const std::
   }
   const double size = (upper - lower).norm();
   if (!(size > 0)) return {};
-  Triangulation cut(lower - Vec2::Constant(size), upper + Vec2::Constant(size), kTolerance * size);
+  Triangulation cut(lower - Vec2::Constant(size), upper + Vec2::Constant(size), kCapTolerance * size);
   std::map<int, int> vertex_of, point_of;
   for (const auto& edge : edges)
     for (const int point : edge) {

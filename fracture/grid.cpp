@@ -4,13 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "cross.h"
 #include "topple/fracture/unfit_settings.h"
 
 namespace topple::fracture {
 
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Newton's steps for the inverse of the bilinear map: enough for a start, since a search follows.
 constexpr int kNewtonSteps = 4;

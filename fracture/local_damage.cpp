@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "cross.h"
 #include "random.h"
 
 namespace topple::fracture {
@@ -14,8 +15,6 @@ namespace {
 /// Corners farther away than this multiple of the farthest distance are drawn in to it: seen from the panel they lie at
 /// infinity, and their coordinates would lose the panel's digits.
 constexpr double kFarthest = 1e4;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 std::vector<double> draw_angles(int count, Random& random) {
   constexpr double turn = 2 * std::numbers::pi;

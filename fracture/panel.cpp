@@ -17,9 +17,9 @@ namespace topple::fracture {
 
 namespace {
 
-constexpr double kTolerance = 1e-7;  ///< of the panel's size
-constexpr double kMargin = 0.25;     ///< of the panel's size: empty space around it in the triangulation
-constexpr double kLeastRing = 1e-4;  ///< of the panel's size
+constexpr double kOutlineTolerance = 1e-7;  ///< of the panel's size
+constexpr double kMargin = 0.25;            ///< of the panel's size: empty space around it in the triangulation
+constexpr double kLeastRing = 1e-4;         ///< of the panel's size
 constexpr int kEmpty = 0, kFirstPiece = 2;
 
 PanelBounds bounds(const PanelShape& shape) {
@@ -65,7 +65,7 @@ BreakablePanel::Impl::Impl(const PanelShape& given, const PanelSettings& setting
       box(bounds(given)),
       cells(make_cell_source(given, settings)),
       triangulation(box.lower - Vec2::Constant(kMargin * box.size()), box.upper + Vec2::Constant(kMargin * box.size()),
-                    kTolerance * box.size()),
+                    kOutlineTolerance * box.size()),
       mesh(given.thickness) {
   expect_fit(given, settings);
   if (shape.held.empty()) shape.held.assign(shape.outline.size(), true);

@@ -2,15 +2,10 @@
 
 #include <array>
 
+#include "cross.h"
 #include "predicates.h"
 
 namespace topple::fracture {
-
-namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-}  // namespace
 
 double area(const Polygon& polygon) {
   double twice = 0;

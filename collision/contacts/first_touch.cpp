@@ -61,8 +61,8 @@ double origins_bound(const Motion& first, const Motion& second, const btVector3&
 enum class Carrier { none, first, second };
 
 /// What advance() asks about a pair; the second may be the ground.
-struct Pair {
-  virtual ~Pair() = default;
+struct ClosingPair {
+  virtual ~ClosingPair() = default;
   [[nodiscard]] virtual Closest closest(double time) const = 0;
   /// No point closes faster than this along n from `time` to the end.
   [[nodiscard]] virtual double closing_bound(const btVector3& normal, double time) const = 0;
@@ -91,8 +91,8 @@ double turning_bend(const SolidPart& part, const Motion& motion, const btVector3
 /// From `time` on the gap, which is `now` along n, stays above `least` for so long, s, or for `shortest` where that is
 /// not known. It is the least of functions of time that bend by B at most: between g now and h after D it is above
 /// (1 - s) g + s h - s (1 - s) B D^2/2 at any share s of D.
-double stays_apart(const Pair& pair, Carrier carrier, const btVector3& normal, double now, double time, double least,
-                   double shortest, double longest) {
+double stays_apart(const ClosingPair& pair, Carrier carrier, const btVector3& normal, double now, double time,
+                   double least, double shortest, double longest) {
   const double bend = pair.bend(carrier, normal, time);
   const btVector3 turn = pair.turn(carrier);
   const double rate = turn.length();
@@ -109,7 +109,7 @@ double stays_apart(const Pair& pair, Carrier carrier, const btVector3& normal, d
   return shortest;
 }
 
-std::optional<Touch> advance(const Pair& pair, double duration) {
+std::optional<Touch> advance(const ClosingPair& pair, double duration) {
   double time = 0;
   while (time <= duration) {
     const Closest closest = pair.closest(time);
@@ -143,7 +143,7 @@ std::optional<Touch> advance(const Pair& pair, double duration) {
   return std::nullopt;
 }
 
-struct PartPair : Pair {
+struct PartPair : ClosingPair {
   const SolidPart &first, &second;
   const Motion &first_motion, &second_motion;
   double duration;
@@ -183,7 +183,7 @@ struct PartPair : Pair {
   }
 };
 
-struct GroundPair : Pair {
+struct GroundPair : ClosingPair {
   const SolidPart& part;
   const Motion& motion;
   double height, duration;

@@ -10,7 +10,7 @@ namespace topple::collision {
 namespace {
 
 /// For which a piece of a loop is worth being handed on.
-constexpr std::size_t kBodies = 32, kPairs = 64;
+constexpr std::size_t kSolvedBodies = 32, kPairs = 64;
 
 /// Along the axis on which they are spread widest: what is near each other is then near in memory, and on one thread.
 void order_in_space(std::vector<DebrisBody*>& bodies) {
@@ -29,7 +29,7 @@ void order_in_space(std::vector<DebrisBody*>& bodies) {
 
 template <class Work>
 void SolvedIslands::each_solved(const Work& work) {
-  region_.each(solving_.size(), kBodies, [&](std::size_t i) { work(*solving_[i]); });
+  region_.each(solving_.size(), kSolvedBodies, [&](std::size_t i) { work(*solving_[i]); });
 }
 
 void SolvedIslands::fill(std::span<Island* const> islands, double dt, int substeps) {

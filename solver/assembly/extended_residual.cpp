@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "assembly/machine_epsilon.h"
 #include "assembly/refinement.h"
 #include "factor/large_buffer.h"
 #include "factor/vector_versions.h"
@@ -12,7 +13,6 @@
 namespace topple::solver {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// N numbers side by side, one for each column; in memory aligned to their size.
 template <int N>
 struct Lanes;
@@ -56,7 +56,7 @@ template <class Number>
 }
 
 /// The rows of the matrix: what lies left of the diagonal, and the stored rest.
-struct MatrixRows {
+struct ResidualRows {
   std::int32_t size;
   const std::int64_t *start, *left_start;
   const std::int32_t* row;
@@ -67,7 +67,7 @@ struct MatrixRows {
 
 /// x: N numbers a row. sums: of each row the value, what its last digit lost, and the size, N numbers each.
 template <int N>
-[[gnu::always_inline]] inline void subtract_row_products(const MatrixRows& K, const double* x, double* sums) {
+[[gnu::always_inline]] inline void subtract_row_products(const ResidualRows& K, const double* x, double* sums) {
   using Number = typename Lanes<N>::Type;
   for (std::int32_t i = 0; i < K.size; ++i) {
     auto* sum = reinterpret_cast<Number*>(sums + std::ptrdiff_t{3 * N} * i);
@@ -86,11 +86,11 @@ template <int N>
 }
 
 TOPPLE_VECTOR_VERSIONS
-void subtract_products_1(const MatrixRows& K, const double* x, double* sums) { subtract_row_products<1>(K, x, sums); }
+void subtract_products_1(const ResidualRows& K, const double* x, double* sums) { subtract_row_products<1>(K, x, sums); }
 TOPPLE_VECTOR_VERSIONS
-void subtract_products_4(const MatrixRows& K, const double* x, double* sums) { subtract_row_products<4>(K, x, sums); }
+void subtract_products_4(const ResidualRows& K, const double* x, double* sums) { subtract_row_products<4>(K, x, sums); }
 TOPPLE_VECTOR_VERSIONS
-void subtract_products_8(const MatrixRows& K, const double* x, double* sums) { subtract_row_products<8>(K, x, sums); }
+void subtract_products_8(const ResidualRows& K, const double* x, double* sums) { subtract_row_products<8>(K, x, sums); }
 
 }  // namespace
 
@@ -137,8 +137,8 @@ std::vector<double> ExtendedResidual::operator()(const Eigen::Ref<const Eigen::M
 void ExtendedResidual::columns(Eigen::Index first, Eigen::Index count, const Eigen::Ref<const Eigen::MatrixXd>& b,
                                const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::MatrixXd& r, double* errors) const {
   const Eigen::Index n = K_.size, lanes = count == 1 ? 1 : count <= 4 ? 4 : 8;
-  const MatrixRows rows{K_.size,         K_.start.data(),    left_start_.data(), K_.row.data(),
-                        K_.value.data(), left_place_.data(), left_column_.data()};
+  const ResidualRows rows{K_.size,         K_.start.data(),    left_start_.data(), K_.row.data(),
+                          K_.value.data(), left_place_.data(), left_column_.data()};
   const LargeBuffer own_memory(static_cast<std::size_t>(lanes * n)),
       sums_memory(static_cast<std::size_t>(3 * lanes * n));
   Eigen::Map<Eigen::MatrixXd> own(own_memory.data(), lanes, n), sums(sums_memory.data(), 3 * lanes, n);
@@ -157,7 +157,7 @@ void ExtendedResidual::columns(Eigen::Index first, Eigen::Index count, const Eig
       const double residual = sums(c, i) + sums(lanes + c, i), row_sum = row_sum_[static_cast<std::size_t>(i)];
       double denominator = sums(2 * lanes + c, i);
       // A row whose terms are themselves rounding of the others' is measured against the row's norm.
-      if (denominator <= static_cast<double>(n) * epsilon * row_sum * largest) denominator += row_sum * largest;
+      if (denominator <= static_cast<double>(n) * machine_epsilon * row_sum * largest) denominator += row_sum * largest;
       if (std::abs(residual) > 0) worst = std::max(worst, std::abs(residual) / denominator);
       r(i, first + c) = residual;
     }

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "assembly/machine_epsilon.h"
 #include "factor/vector_versions.h"
 #include "reanalysis/update_costs.h"
 #include "reanalysis/work_count.h"
 
 namespace topple::solver {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 constexpr int six = 6;  // columns of a node
 
@@ -179,7 +178,7 @@ double MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, 
   absolute_x_ = x.cwiseAbs();
   multiply_groups(K, group_, run_.data(), {x.data(), absolute_x_.data(), r.data(), size_.data()});
   const double largest = b.size() > 0 ? absolute_x_.maxCoeff() : 0;
-  const double rounding = static_cast<double>(b.size()) * epsilon * largest;
+  const double rounding = static_cast<double>(b.size()) * machine_epsilon * largest;
   // No row of the scaled matrix sums up to more than this; beyond, the row's own sum decides.
   constexpr double most_row_sum = 1e4;
   double worst = 0;
@@ -221,7 +220,8 @@ void MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, co
 double MatrixRows::error(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x,
                          std::span<const int> rows) const {
   double worst = 0;
-  const double rounding = static_cast<double>(b.size()) * epsilon * (b.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0);
+  const double rounding =
+      static_cast<double>(b.size()) * machine_epsilon * (b.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0);
   for (const int row : rows) {
     const auto i = static_cast<std::size_t>(row);
     double sum = b(row), size = std::abs(b(row)), coefficients = 0;
@@ -235,7 +235,8 @@ double MatrixRows::error(const SparseSymmetric& K, const Eigen::VectorXd& b, con
     for (auto k = left_start_[i]; k < left_start_[i + 1]; ++k)
       add(K.value[static_cast<std::size_t>(left_position_[static_cast<std::size_t>(k)])],
           x(left_column_[static_cast<std::size_t>(k)]));
-    if (size <= rounding * coefficients) size += coefficients * rounding / (static_cast<double>(b.size()) * epsilon);
+    if (size <= rounding * coefficients)
+      size += coefficients * rounding / (static_cast<double>(b.size()) * machine_epsilon);
     if (sum != 0) worst = std::max(worst, std::abs(sum) / size);
     if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();
   }

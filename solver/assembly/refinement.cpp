@@ -5,10 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "assembly/machine_epsilon.h"
+
 namespace topple::solver {
-namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-}  // namespace
 
 RefinedSolution solve_refined(const SparseSymmetric& K, const LinearSolve& solve, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd x = b;
@@ -115,8 +114,8 @@ double estimate_condition(const SparseSymmetric& K, const LinearSolve& solve) {
 double forward_error_bound(double condition, double backward_error) {
   // The residual takes the matrix as it was assembled. On the way there each entry was rounded about twelve times, by
   // half an epsilon at most: in the products of the element's stiffness, and in the two turns of its axes.
-  constexpr double matrix_rounding = 6 * epsilon;
-  return 2 * condition * (std::max(backward_error, epsilon / 2) + matrix_rounding);
+  constexpr double matrix_rounding = 6 * machine_epsilon;
+  return 2 * condition * (std::max(backward_error, machine_epsilon / 2) + matrix_rounding);
 }
 
 }  // namespace topple::solver

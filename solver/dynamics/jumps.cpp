@@ -12,7 +12,7 @@ namespace {
 /// Velocities are found to this share of the impulses: by so many passes of conjugate gradients at most, or so many
 /// answers of the factor, of which one is nearly always enough.
 constexpr double solved = 1e-12;
-constexpr int most_passes = 2000, most_refinements = 3;
+constexpr int most_event_passes = 2000, most_refinements = 3;
 /// Damping over a substep, of s: with less than this conjugate gradients on M take few passes.
 constexpr double least_share = 0.01;
 
@@ -97,7 +97,7 @@ Eigen::VectorXd FrameDynamics::State::Jumps::velocities_by_mass(const FrameSyste
   const double enough = solved * solved * now_left;
   SideBySide<1> direction = guided.transpose(), product;
   for (int pass = 0; now_left > enough; ++pass) {
-    if (pass == most_passes) throw std::runtime_error("the velocities that an impulse leaves were not found");
+    if (pass == most_event_passes) throw std::runtime_error("the velocities that an impulse leaves were not found");
     apply(direction, product);
     const double step = now_left / direction.row(0).dot(product.row(0));
     x += step * direction.row(0).transpose();

@@ -6,7 +6,7 @@ namespace topple::solver {
 namespace {
 
 /// Of the load: what it may still change from one pass to the next.
-constexpr double settled = 1e-9;
+constexpr double settled_change = 1e-9;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ SettlingLoad::Pass SettlingLoad::iterate(Eigen::VectorXd at_end) {
   if (!at_end.allFinite()) return Pass::lost;
   const double change = (at_end - end_).lpNorm<Eigen::Infinity>();
   const double size = at_end.lpNorm<Eigen::Infinity>();
-  if (change <= settled * size) return Pass::settled;
+  if (change <= settled_change * size) return Pass::settled;
   end_ = std::move(at_end);
   return Pass::open;
 }

@@ -10,11 +10,11 @@
 namespace topple::solver {
 namespace {
 
-constexpr int samples = 3;           // tangents between which V' T V is a parabola
-constexpr double below_first = 0.8;  // linear estimates are too high: a pinned column of one member by 22 %
-constexpr double beyond = 5e-3;      // of the shift behind the last estimate, relative
-constexpr double equal = 1e-9;       // relative distance of factors that count as equal
-constexpr double found = 1e-12;      // change of a factor, relative, that is none
+constexpr int samples = 3;              // tangents between which V' T V is a parabola
+constexpr double below_first = 0.8;     // linear estimates are too high: a pinned column of one member by 22 %
+constexpr double past_estimate = 5e-3;  // of the shift behind the last estimate, relative
+constexpr double equal = 1e-9;          // relative distance of factors that count as equal
+constexpr double found = 1e-12;         // change of a factor, relative, that is none
 constexpr int most_turns = 12, most_steps = 60;
 constexpr double nothing_new = 1e-8;  // what is left of a vector beside the subspace when it is but rounding
 constexpr double behind_last = 1e-6;  // of a count behind the last pair, where the shift lies before it
@@ -37,9 +37,9 @@ Eigen::MatrixXd product(const SparseSymmetric& A, const Eigen::Ref<const Eigen::
 }
 
 /// V and V' T V at the samples.
-class Subspace {
+class SampledSubspace {
  public:
-  Subspace(const TangentOperators& operators, double low, double high) {
+  SampledSubspace(const TangentOperators& operators, double low, double high) {
     for (int s = 0; s < samples; ++s) {
       place_[static_cast<std::size_t>(s)] = low + (high - low) * s / (samples - 1);
       tangent_[static_cast<std::size_t>(s)] = operators.tangent(place_[static_cast<std::size_t>(s)]);
@@ -76,7 +76,7 @@ class Subspace {
 
   /// Of the whole: eigenvectors of V' T V from the first-th smallest eigenvalue on.
   [[nodiscard]] Eigen::MatrixXd vectors(double factor, Eigen::Index first, Eigen::Index count) const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense(at_factor(factor, &Subspace::weight));
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense(at_factor(factor, &SampledSubspace::weight));
     return V_ * dense.eigenvectors().middleCols(first, count);
   }
 
@@ -89,9 +89,9 @@ class Subspace {
   [[nodiscard]] Zero zero(Eigen::Index k, double start) const {
     Zero at{start, 0, {}, false};
     for (int step = 0; step < most_steps; ++step) {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense(at_factor(at.factor, &Subspace::weight));
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense(at_factor(at.factor, &SampledSubspace::weight));
       const Eigen::VectorXd y = dense.eigenvectors().col(k);
-      at.slope = y.dot(at_factor(at.factor, &Subspace::weight_slope) * y);
+      at.slope = y.dot(at_factor(at.factor, &SampledSubspace::weight_slope) * y);
       if (!(at.slope < 0)) return at;
       const double move = -dense.eigenvalues()(k) / at.slope;
       at.factor += move;
@@ -121,7 +121,8 @@ class Subspace {
     }
     return sum / denominator;
   }
-  [[nodiscard]] Eigen::MatrixXd at_factor(double factor, double (Subspace::*of)(std::size_t, double) const) const {
+  [[nodiscard]] Eigen::MatrixXd at_factor(double factor,
+                                          double (SampledSubspace::*of)(std::size_t, double) const) const {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(columns(), columns());
     for (std::size_t s = 0; s < samples; ++s) sum += (this->*of)(s, factor) * projected_[s];
     return sum;
@@ -140,7 +141,7 @@ class Search {
       : operators_(operators),
         count_(count),
         subspace_(operators, below_first * starts.front().factor,
-                  (1 + beyond) * starts[static_cast<std::size_t>(count) - 1].factor) {
+                  (1 + past_estimate) * starts[static_cast<std::size_t>(count) - 1].factor) {
     Eigen::MatrixXd vectors(starts.front().vector.size(), static_cast<Eigen::Index>(starts.size()));
     for (std::size_t i = 0; i < starts.size(); ++i) vectors.col(static_cast<Eigen::Index>(i)) = starts[i].vector;
     subspace_.add(vectors);
@@ -150,7 +151,7 @@ class Search {
   /// Empty when the lowest are not found, or not proved.
   std::vector<BucklingPair> run() {
     if (subspace_.columns() < count_ || !widen(count_)) return {};
-    shift_ = (1 + beyond) * states_.back().projected.factor;
+    shift_ = (1 + past_estimate) * states_.back().projected.factor;
     below_shift_ = operators_.factorise(shift_);
     if (below_shift_ < 0) return {};
     // All that lie below the shift, where the subspace has them: its count is then the proof.
@@ -168,7 +169,7 @@ class Search {
 
  private:
   struct State {
-    Subspace::Zero projected;
+    SampledSubspace::Zero projected;
     double factor = 0;  ///< where the exact tangent is looked at next
     Eigen::VectorXd vector;
     bool found = false;
@@ -245,7 +246,7 @@ class Search {
     for (std::size_t k = 0; k < states_.size(); ++k) {
       State& state = states_[k];
       if (state.found) continue;
-      const Subspace::Zero zero = subspace_.zero(static_cast<Eigen::Index>(k), state.projected.factor);
+      const SampledSubspace::Zero zero = subspace_.zero(static_cast<Eigen::Index>(k), state.projected.factor);
       if (!zero.valid) return false;
       state.factor += zero.factor - state.projected.factor;
       state.projected = zero;
@@ -255,7 +256,7 @@ class Search {
 
   const TangentOperators& operators_;
   int count_;
-  Subspace subspace_;
+  SampledSubspace subspace_;
   std::vector<double> guesses_;
   std::vector<State> states_;
   double shift_ = 0;

@@ -9,9 +9,9 @@
 namespace topple::solver {
 namespace {
 
-constexpr Eigen::Index beyond = 3, blocks = 12;  // width of a block beyond what is sought; how many of them
-constexpr double settled = 2e-3;                 // change of the estimates, relative, that ends the iteration
-constexpr double negligible = 1e-10;             // what is left of a vector beside the others when it is but rounding
+constexpr Eigen::Index spare = 3, most_blocks = 12;  // width of a block beyond what is sought; how many of them
+constexpr double settled_start = 2e-3;               // change of the estimates, relative, that ends the iteration
+constexpr double nothing_left = 1e-10;  // what is left of a vector beside the others when it is but rounding
 
 /// K-orthonormal vectors V with K V and G V.
 class Basis {
@@ -40,7 +40,7 @@ class Basis {
         Kv -= KV_.middleCols(before, columns_ - before) * along;
       }
       const double left = v.dot(Kv);
-      if (!(left > negligible * energy(j))) continue;
+      if (!(left > nothing_left * energy(j))) continue;
       V_.col(columns_) = v / std::sqrt(left);
       KV_.col(columns_++) = Kv / std::sqrt(left);
     }
@@ -87,16 +87,16 @@ class Basis {
 bool settled_between(const std::vector<double>& before, const std::vector<double>& now, int count) {
   if (static_cast<int>(before.size()) < count || now.size() != before.size()) return false;
   for (std::size_t i = 0; i < now.size(); ++i)
-    if (std::abs(now[i] - before[i]) > settled * now[i]) return false;
+    if (std::abs(now[i] - before[i]) > settled_start * now[i]) return false;
   return true;
 }
 
 }  // namespace
 
 std::vector<BucklingStart> estimate_buckling(const LinearisedBuckling& operators, int count) {
-  const Eigen::Index width = std::min<Eigen::Index>(operators.size, count + beyond);
+  const Eigen::Index width = std::min<Eigen::Index>(operators.size, count + spare);
   if (width == 0) return {};
-  Basis basis(operators, std::min<Eigen::Index>(operators.size, blocks * width));
+  Basis basis(operators, std::min<Eigen::Index>(operators.size, most_blocks * width));
   // Vectors without any symmetry of their own.
   Eigen::MatrixXd start(operators.size, width);
   for (Eigen::Index j = 0; j < width; ++j)
@@ -104,7 +104,7 @@ std::vector<BucklingStart> estimate_buckling(const LinearisedBuckling& operators
       start(i, j) = std::sin(1.0 + 0.7 * static_cast<double>(i) + 1.3 * static_cast<double>(j * i % 977));
   Eigen::Index added = basis.add(operators.multiply(start));
   std::vector<double> before;
-  for (Eigen::Index b = 1; b < blocks && added > 0; ++b) {
+  for (Eigen::Index b = 1; b < most_blocks && added > 0; ++b) {
     added = basis.add(basis.last_forces(added));
     std::vector<double> now = basis.factors(count);
     if (settled_between(before, now, count)) break;

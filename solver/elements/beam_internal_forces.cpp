@@ -125,8 +125,6 @@ std::array<double, 6> integrate_deflection(const std::array<double, 5>& rotation
   return result;
 }
 
-double inverse_or_zero(double stiffness) { return stiffness > 0 ? 1 / stiffness : 0; }
-
 }  // namespace
 
 Vec6 integrate_deformation(const Beam& beam, double factor, const InternalForces& forces,

@@ -45,6 +45,9 @@ void find_internal_forces(double length, const Vec6& first_end, std::span<const 
 [[nodiscard]] Vec6 integrate_deformation(const Beam& beam, double factor, const InternalForces& forces,
                                          std::vector<DeformedPiece>* pieces = nullptr);
 
+/// Compliance for a stiffness, where a stiffness of zero stands for one that is not looked at (no shear deformation).
+[[nodiscard]] inline double inverse_or_zero(double stiffness) { return stiffness > 0 ? 1 / stiffness : 0; }
+
 /// Value of a polynomial at t.
 template <std::size_t N>
 [[nodiscard]] double polynomial(const std::array<double, N>& coefficient, double t) {

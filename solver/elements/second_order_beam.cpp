@@ -12,8 +12,6 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-double inverse_or_zero(double stiffness) { return stiffness > 0 ? 1 / stiffness : 0; }
-
 ColumnPlane plane_of(const Beam& beam, double factor, const InternalForces& forces, bool xz) {
   ColumnPlane plane;
   plane.bending_stiffness = factor * beam.youngs_modulus * (xz ? beam.Iy : beam.Iz);

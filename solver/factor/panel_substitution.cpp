@@ -8,7 +8,7 @@
 namespace topple::solver {
 namespace {
 
-constexpr int strip = 8, lanes = EightLanes::count, most_together = 4;
+constexpr int panel_strip = 8, strip_rows = EightLanes::count, most_together = 4;
 
 /// Of the eight parts of a sum.
 [[gnu::always_inline]] inline double total(const double* p) {
@@ -21,7 +21,8 @@ template <class Lanes, int K, int N>
                                             double* parts) {
   for (int k = 0; k < K; ++k)
     for (int c = 0; c < N; ++c)
-      lanes_at<Lanes>(parts + (k * N + c) * lanes) += lanes_at<Lanes>(L + k * ld) * lanes_at<Lanes>(b + c * stride);
+      lanes_at<Lanes>(parts + (k * N + c) * strip_rows) +=
+          lanes_at<Lanes>(L + k * ld) * lanes_at<Lanes>(b + c * stride);
 }
 
 /// sum[k * N + c] := the product of column k of L and column c of b, k < K, c < N.
@@ -33,34 +34,35 @@ template <int K, int N>
   for (int p = 0; p < K * N; ++p) part[p] = EightLanes::Vector{};
   int i = 0;
   // One loop over all sums: the compiler unrolls no loop of loops before it gives arrays registers.
-  for (; i + lanes <= rows; i += lanes) {
+  for (; i + strip_rows <= rows; i += strip_rows) {
     TOPPLE_UNROLLED
     for (int p = 0; p < K * N; ++p)
       part[p] += lanes_at<EightLanes>(L + p / N * ld + i) * lanes_at<EightLanes>(b + p % N * stride + i);
   }
-  double parts[K * N * lanes];
+  double parts[K * N * strip_rows];
   TOPPLE_UNROLLED
-  for (int p = 0; p < K * N; ++p) lanes_at<EightLanes>(parts + p * lanes) = part[p];
+  for (int p = 0; p < K * N; ++p) lanes_at<EightLanes>(parts + p * strip_rows) = part[p];
   if (rows - i >= FourLanes::count) {
     add_tail<FourLanes, K, N>(L + i, ld, b + i, stride, parts);
     i += FourLanes::count;
   }
-  const int after_four = i % lanes;
+  const int after_four = i % strip_rows;
   if (rows - i >= TwoLanes::count) {
     add_tail<TwoLanes, K, N>(L + i, ld, b + i, stride, parts + after_four);
     i += TwoLanes::count;
   }
-  if (i < rows) add_tail<OneLane, K, N>(L + i, ld, b + i, stride, parts + i % lanes);
-  for (int p = 0; p < K * N; ++p) sum[p] = total(parts + p * lanes);
+  if (i < rows) add_tail<OneLane, K, N>(L + i, ld, b + i, stride, parts + i % strip_rows);
+  for (int p = 0; p < K * N; ++p) sum[p] = total(parts + p * strip_rows);
 }
 
 /// sum[k * N + c] of `width` (at most 8) columns of L; as many at a time as leave registers for the sums.
 template <int N>
 [[gnu::always_inline]] inline void products(const double* L, std::ptrdiff_t ld, int width, const double* b,
                                             std::ptrdiff_t stride, int rows, double* sum) {
-  if (width == strip) {
+  if (width == panel_strip) {
     constexpr int group = N <= 2 ? 8 : 4;
-    for (int k = 0; k < strip; k += group) multiply_columns<group, N>(L + k * ld, ld, b, stride, rows, sum + k * N);
+    for (int k = 0; k < panel_strip; k += group)
+      multiply_columns<group, N>(L + k * ld, ld, b, stride, rows, sum + k * N);
     return;
   }
   int k = 0;
@@ -93,7 +95,7 @@ constexpr Products products_of[most_together] = {products_1, products_2, product
 void subtract_products(const double* L, std::ptrdiff_t ld, int width, const double* b, std::ptrdiff_t stride, int rows,
                        double* x, std::ptrdiff_t x_stride, int count) {
   if (rows <= 0) return;
-  double sum[strip * most_together];
+  double sum[panel_strip * most_together];
   products_of[count - 1](L, ld, width, b, stride, rows, sum);
   for (int c = 0; c < count; ++c)
     for (int k = 0; k < width; ++k) x[c * x_stride + k] -= sum[k * count + c];
@@ -109,7 +111,7 @@ void substitute_triangle(const double* T, std::ptrdiff_t ld, int width, double* 
 
 /// One strip of columns of L, at most four right-hand sides.
 void substitute(const double* L, int columns, int rows, int first, double* x, int count, const double* below) {
-  const int below_rows = rows - columns, width = std::min(strip, columns - first), next = first + width;
+  const int below_rows = rows - columns, width = std::min(panel_strip, columns - first), next = first + width;
   const double* block = L + static_cast<std::ptrdiff_t>(first) * rows;
   subtract_products(block + columns, rows, width, below, below_rows, below_rows, x + first, columns, count);
   subtract_products(block + next, rows, width, x + next, columns, columns - next, x + first, columns, count);
@@ -121,7 +123,7 @@ void substitute(const double* L, int columns, int rows, int first, double* x, in
 
 void substitute_back(const double* L, int columns, int rows, double* x, int count, const double* below) {
   // Strip by strip for all right-hand sides: a strip stays in the cache, the panel comes from memory once.
-  for (int first = (columns - 1) / strip * strip; first >= 0; first -= strip)
+  for (int first = (columns - 1) / panel_strip * panel_strip; first >= 0; first -= panel_strip)
     for (int c = 0; c < count; c += most_together)
       substitute(L, columns, rows, first, x + static_cast<std::ptrdiff_t>(c) * columns,
                  std::min(most_together, count - c), below + static_cast<std::ptrdiff_t>(c) * (rows - columns));

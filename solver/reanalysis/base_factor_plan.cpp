@@ -8,15 +8,16 @@ namespace {
 
 /// Operations that one entry of the factor costs in a triangular solve of one column, where memory sets the pace, and
 /// for each further column; and those of a small dense solver, which runs at a fraction of the factorisation's rate.
-constexpr double entry_cost = 10, column_cost = 3, dense_cost = 2;
+constexpr double shared_entry_cost = 10, path_product_cost = 3, dense_operation_cost = 2;
 /// For each entry of the small dense solver, whose condition is estimated by a few solves.
 constexpr double condition_cost = 20;
 /// For each row that two columns share on their paths, when their product is made.
-constexpr double product_cost = 3;
+constexpr double pair_product_cost = 3;
 
 double operations_of(const CorrectionWork& work) {
-  return column_cost * work.path_products + product_cost * work.pair_products + entry_cost * work.shared_entries +
-         dense_cost * (work.rank * work.rank * work.rank - work.kept * work.kept * work.kept) +
+  return path_product_cost * work.path_products + pair_product_cost * work.pair_products +
+         shared_entry_cost * work.shared_entries +
+         dense_operation_cost * (work.rank * work.rank * work.rank - work.kept * work.kept * work.kept) +
          condition_cost * work.rank * work.rank;
 }
 

@@ -18,10 +18,10 @@ constexpr double ill_conditioned = 1e12;
 /// Columns that a correction may have at most.
 constexpr int most_columns = 1000;
 /// Solves that the estimate of a new factor's condition takes, with the first answer's.
-constexpr double solves_with_factor = 12;
+constexpr double condition_solves = 12;
 /// Operations for each entry of the factor in one solve: where memory sets the pace, and where the factor is in cache.
 constexpr double solve_cost = 20, cached_solve_cost = 6;
-constexpr double cached_entries = 250000;
+constexpr double entries_in_cache = 250000;
 
 /// Of a correction's work that of the columns beyond so many, by themselves.
 CorrectionWork added_alone(CorrectionWork work, double before) {
@@ -136,7 +136,7 @@ FactorWork ServingFactor::factor_work() const {
 double ServingFactor::operations() const {
   const auto entries = static_cast<double>(factor_->entries());
   return factor_->operations() +
-         solves_with_factor * (entries < cached_entries ? cached_solve_cost : solve_cost) * entries;
+         condition_solves * (entries < entries_in_cache ? cached_solve_cost : solve_cost) * entries;
 }
 
 }  // namespace topple::solver

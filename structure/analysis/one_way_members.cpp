@@ -12,16 +12,14 @@ namespace topple::structure {
 
 namespace {
 
-using solver::AxialAction;
-
 /// The end at which a slack member lets go: the weight of a tie hangs on its upper end, that of a strut stands on its
 /// lower one.
 std::size_t loose_end(const solver::Beam& beam) {
   const bool rises = beam.axes(0, 2) > 0;
-  return (beam.axial == AxialAction::tension_only) == rises ? 0 : 1;
+  return (beam.axial == solver::AxialAction::tension_only) == rises ? 0 : 1;
 }
 
-double sense(const solver::Beam& beam) { return beam.axial == AxialAction::tension_only ? 1 : -1; }
+double sense(const solver::Beam& beam) { return beam.axial == solver::AxialAction::tension_only ? 1 : -1; }
 
 /// Of the rigid ends at a beam's ends, local axes.
 solver::Vec12 rigid_end_displacements(const solver::Beam& beam, const std::vector<solver::Vec6>& displacements) {
@@ -62,13 +60,13 @@ std::vector<char> turned_over(std::vector<char> active, const std::vector<std::s
 }  // namespace
 
 solver::FrameModel carrying_both(solver::FrameModel model) {
-  for (solver::Beam& beam : model.beams) beam.axial = AxialAction::both;
+  for (solver::Beam& beam : model.beams) beam.axial = solver::AxialAction::both;
   return model;
 }
 
 OneWayMembers::OneWayMembers(const solver::FrameModel& model) : model_(model) {
   for (std::size_t i = 0; i < model.beams.size(); ++i)
-    if (model.beams[i].axial != AxialAction::both) members_.push_back(i);
+    if (model.beams[i].axial != solver::AxialAction::both) members_.push_back(i);
 }
 
 solver::FrameModel OneWayMembers::with_releases(const std::vector<char>& active, double trace) const {

@@ -7,7 +7,7 @@ namespace topple::structure::aisc360 {
 
 namespace {
 
-constexpr const char* clause = "AISC 360 F1";
+constexpr const char* flexure_clause = "AISC 360 F1";
 
 /// F4-11: radius of gyration of the compressed flange and a third of the compressed web; a_w of F4-12.
 double flange_radius(const SteelSection& s, double aw) { return s.width / std::sqrt(12 * (1 + aw / 6)); }
@@ -24,16 +24,17 @@ double lateral_strength(const SteelSection& s, double length, double cb, double 
   const double lr =
       1.95 * rts * s.E / residual * std::sqrt(jc + std::sqrt(jc * jc + 6.76 * std::pow(residual / s.E, 2)));
   if (noncompact)
-    trail.add(clause, "r_t", "b_fc/sqrt(12 (1 + a_w/6)) (F4-11)", rts, of_length);
+    trail.add(flexure_clause, "r_t", "b_fc/sqrt(12 (1 + a_w/6)) (F4-11)", rts, of_length);
   else
-    trail.add(clause, "r_ts", "sqrt(sqrt(I_y C_w)/S_x) (F2-7)", rts, of_length);
-  trail.add(clause, "L_p", noncompact ? "1.1 r_t sqrt(E/F_y) (F4-7)" : "1.76 r_y sqrt(E/F_y) (F2-5)", lp, of_length);
-  trail.add(clause, "L_r", noncompact ? "(F4-8)" : "(F2-6)", lr, of_length);
+    trail.add(flexure_clause, "r_ts", "sqrt(sqrt(I_y C_w)/S_x) (F2-7)", rts, of_length);
+  trail.add(flexure_clause, "L_p", noncompact ? "1.1 r_t sqrt(E/F_y) (F4-7)" : "1.76 r_y sqrt(E/F_y) (F2-5)", lp,
+            of_length);
+  trail.add(flexure_clause, "L_r", noncompact ? "(F4-8)" : "(F2-6)", lr, of_length);
   if (length <= lp) return plain;
   if (length <= lr) return std::min(plain, cb * (plain - (plain - residual * s.elastic_y) * (length - lp) / (lr - lp)));
   const double slender = length / rts;
   const double fcr = cb * pi2 * s.E / (slender * slender) * std::sqrt(1 + 0.078 * jc * slender * slender);
-  trail.add(clause, "F_cr", noncompact ? "(F4-5)" : "(F2-4)", fcr, of_stress);
+  trail.add(flexure_clause, "F_cr", noncompact ? "(F4-5)" : "(F2-4)", fcr, of_stress);
   return std::min(plain, fcr * s.elastic_y);
 }
 
@@ -47,10 +48,10 @@ double slender_web_lateral(const SteelSection& s, double length, double cb, doub
   else if (length > lp)
     fcr = cb * (s.fy - 0.3 * s.fy * (length - lp) / (lr - lp));
   fcr = std::min(fcr, s.fy);
-  trail.add(clause, "r_t", "b_fc/sqrt(12 (1 + a_w/6)) (F4-11)", rt, of_length);
-  trail.add(clause, "L_p", "1.1 r_t sqrt(E/F_y) (F4-7)", lp, of_length);
-  trail.add(clause, "L_r", "pi r_t sqrt(E/(0.7 F_y)) (F5-5)", lr, of_length);
-  trail.add(clause, "F_cr", "(F5-3), (F5-4)", fcr, of_stress);
+  trail.add(flexure_clause, "r_t", "b_fc/sqrt(12 (1 + a_w/6)) (F4-11)", rt, of_length);
+  trail.add(flexure_clause, "L_p", "1.1 r_t sqrt(E/F_y) (F4-7)", lp, of_length);
+  trail.add(flexure_clause, "L_r", "pi r_t sqrt(E/(0.7 F_y)) (F5-5)", lr, of_length);
+  trail.add(flexure_clause, "F_cr", "(F5-3), (F5-4)", fcr, of_stress);
   return rpg * fcr * s.elastic_y;
 }
 
@@ -84,12 +85,13 @@ double open_strong(const SteelSection& s, double length, double cb, const Trail&
   double plain = s.fy * s.plastic_y;
   if (noncompact) plain = yield;  // F4 with R_pc = 1
   plain *= rpg;
-  trail.add(clause, "b_f/(2 t_f)", "compact to 0.38 sqrt(E/F_y) (table B4.1b)", plate.flange, plain_number);
-  trail.add(clause, "h/t_w", "compact to 3.76, not slender to 5.70 sqrt(E/F_y) (table B4.1b)", plate.web, plain_number);
-  trail.add(clause, "M_p", "F_y Z_x (F2-1); F_y S_x, R_pg F_y S_x for noncompact, slender webs (F4, F5)", plain,
+  trail.add(flexure_clause, "b_f/(2 t_f)", "compact to 0.38 sqrt(E/F_y) (table B4.1b)", plate.flange, plain_number);
+  trail.add(flexure_clause, "h/t_w", "compact to 3.76, not slender to 5.70 sqrt(E/F_y) (table B4.1b)", plate.web,
+            plain_number);
+  trail.add(flexure_clause, "M_p", "F_y Z_x (F2-1); F_y S_x, R_pg F_y S_x for noncompact, slender webs (F4, F5)", plain,
             of_moment);
   const double local = flange_strength(s, plain, rpg);
-  trail.add(clause, "M_n, flange", "flange local buckling (F3, F5.3)", local, of_moment);
+  trail.add(flexure_clause, "M_n, flange", "flange local buckling (F3, F5.3)", local, of_moment);
   if (!(length > 0)) return local;
   const double lateral = slender ? slender_web_lateral(s, length, cb, rpg, aw, trail)
                                  : lateral_strength(s, length, cb, plain, noncompact, aw, trail);
@@ -162,8 +164,8 @@ double bar_strength(const SteelSection& s, double length, double cb) {
 
 double strong_strength(const SteelSection& s, double length, double cb, const Trail& trail) {
   const Slenderness plate = slenderness(s);
-  trail.add(clause, "L_b", "between lateral restraints", length, of_length);
-  trail.add(clause, "C_b", "given, or 12.5 M_max/(2.5 M_max + 3 M_A + 4 M_B + 3 M_C) (F1-1)", cb, plain_number);
+  trail.add(flexure_clause, "L_b", "between lateral restraints", length, of_length);
+  trail.add(flexure_clause, "C_b", "given, or 12.5 M_max/(2.5 M_max + 3 M_A + 4 M_B + 3 M_C) (F1-1)", cb, plain_number);
   switch (s.kind) {
     case SteelSection::Kind::I:
       return open_strong(s, length, cb, trail);
@@ -201,7 +203,7 @@ static double weak_axis(const SteelSection& s) {
 
 double weak_strength(const SteelSection& s, const Trail& trail) {
   const double strength = weak_axis(s);
-  trail.add(clause, "phi_b M_ny", "0.90 M_n about the weak axis (F6, F7, F8, F11, F12)", phi_flexure * strength,
+  trail.add(flexure_clause, "phi_b M_ny", "0.90 M_n about the weak axis (F6, F7, F8, F11, F12)", phi_flexure * strength,
             of_moment);
   return strength;
 }

@@ -7,7 +7,7 @@ namespace topple::structure::aisc360 {
 
 namespace {
 
-constexpr const char* clause = "AISC 360 G1";
+constexpr const char* shear_clause = "AISC 360 G1";
 
 /// G2-9 to G2-11: C_v2 of a plate of slenderness `lambda` with buckling coefficient `kv`.
 double shear_coefficient(const SteelSection& s, double lambda, double kv) {
@@ -33,12 +33,13 @@ ShearStrength open_shear(const SteelSection& s, double spacing, const Trail& tra
   ShearStrength r;
   r.z = (stocky ? phi_rolled_web : phi_shear) * cv1 * stress * s.depth * s.web;
   r.y = phi_shear * stress * 2 * s.width * s.flange * shear_coefficient(s, plate.flange, 1.2);  // G6
-  trail.add(clause, "h/t_w", "rolled and up to 2.24 sqrt(E/F_y): phi_v = 1.00 (G2.1(a))", plate.web, plain_number);
-  trail.add(clause, "k_v", "5.34, or 5 + 5/(a/h)^2 (G2-5)", kv, plain_number);
-  trail.add(clause, "C_v1", "1, or 1.10 sqrt(k_v E/F_y)/(h/t_w) (G2-3, G2-4)", cv1, plain_number);
-  trail.add(clause, "phi_v V_n, strong", "phi_v 0.6 F_y A_w C_v1 (G2-1); no tension field action (G2.2)", r.z,
+  trail.add(shear_clause, "h/t_w", "rolled and up to 2.24 sqrt(E/F_y): phi_v = 1.00 (G2.1(a))", plate.web,
+            plain_number);
+  trail.add(shear_clause, "k_v", "5.34, or 5 + 5/(a/h)^2 (G2-5)", kv, plain_number);
+  trail.add(shear_clause, "C_v1", "1, or 1.10 sqrt(k_v E/F_y)/(h/t_w) (G2-3, G2-4)", cv1, plain_number);
+  trail.add(shear_clause, "phi_v V_n, strong", "phi_v 0.6 F_y A_w C_v1 (G2-1); no tension field action (G2.2)", r.z,
             of_force);
-  trail.add(clause, "phi_v V_n, weak", "0.90 0.6 F_y b_f t_f C_v2 of both flanges (G6-1)", r.y, of_force);
+  trail.add(shear_clause, "phi_v V_n, weak", "0.90 0.6 F_y b_f t_f C_v2 of both flanges (G6-1)", r.y, of_force);
   return r;
 }
 
@@ -64,8 +65,8 @@ ShearStrength shear_strength(const SteelSection& s, double spacing, const Trail&
       r.y = phi_shear * stress * s.shear_y;
       r.z = phi_shear * stress * s.shear_z;
   }
-  trail.add(clause, "phi_v V_n, strong", "0.90 0.6 F_y A_w C_v2 (G4, G5)", r.z, of_force);
-  trail.add(clause, "phi_v V_n, weak", "0.90 0.6 F_y A_w C_v2 (G4, G5)", r.y, of_force);
+  trail.add(shear_clause, "phi_v V_n, strong", "0.90 0.6 F_y A_w C_v2 (G4, G5)", r.z, of_force);
+  trail.add(shear_clause, "phi_v V_n, weak", "0.90 0.6 F_y A_w C_v2 (G4, G5)", r.y, of_force);
   return r;
 }
 

@@ -2,6 +2,7 @@
 // A model while it is being read: the building so far, what its names mean, and the factors to SI. Parts are added
 // through here by the reader of members and panels and by the building generator, so that both obey the same checks.
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,6 +15,9 @@
 #include "topple/structure/building.h"
 
 namespace topple::structure::formats {
+
+/// Storeys that a generator builds at most.
+inline constexpr std::int64_t most_storeys = 10'000;
 
 /// Factors from the file's units to SI.
 struct Scale {

@@ -12,8 +12,6 @@ namespace topple::structure::study {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 double largest_use(const AnalysisResult& result) {
   double largest = 0;
   for (const CombinationResult& combination : result.combinations) {
@@ -43,7 +41,7 @@ double worst_loss_use(const LossResult& losses) {
 }
 
 double losses_survived(const LossResult& losses) {
-  if (losses.losses.empty()) return none;
+  if (losses.losses.empty()) return no_value;
   const auto survived = std::count_if(losses.losses.begin(), losses.losses.end(), [](const MemberLoss& loss) {
     return std::all_of(loss.states.begin(), loss.states.end(), [](const LossState& state) { return state.survives(); });
   });

@@ -1,6 +1,5 @@
 // Samples of a scenario: one collapse each, in memory.
 #include <algorithm>
-#include <limits>
 
 #include "model/index_of.h"
 #include "model/own_mass.h"
@@ -13,8 +12,6 @@ namespace topple::structure::study {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 /// How many members are down at which time.
 class DownHistory {
  public:
@@ -26,10 +23,10 @@ class DownHistory {
   }
   /// When half of the members that are down in the end were down; NaN: none is.
   [[nodiscard]] double half() const {
-    if (steps_.empty() || steps_.back().second == 0) return none;
+    if (steps_.empty() || steps_.back().second == 0) return no_value;
     for (const auto& [time, down] : steps_)
       if (2 * down >= steps_.back().second) return time;
-    return none;
+    return no_value;
   }
 
  private:
@@ -123,10 +120,10 @@ class CollapseEvaluator : public SampleEvaluator {
     if (name == "floor_area_down") return fallen_parts(simulation).floor_area;
     if (name == "share_down") {
       const Fallen fallen = fallen_parts(simulation);
-      return fallen.all_mass > 0 ? fallen.mass / fallen.all_mass : none;
+      return fallen.all_mass > 0 ? fallen.mass / fallen.all_mass : no_value;
     }
     if (name == "time_to_half_down") return history.half();
-    if (name == "time_to_rest") return simulation.at_rest() ? simulation.time() : none;
+    if (name == "time_to_rest") return simulation.at_rest() ? simulation.time() : no_value;
     if (name == "debris_reach") return debris.reach;
     if (name == "debris_footprint") return debris.footprint;
     if (name == "height_left") return debris.height;
@@ -136,7 +133,7 @@ class CollapseEvaluator : public SampleEvaluator {
     if (name == "weight") return fallen_parts(simulation).all_mass;
     const double use = largest_standing_utilisation(simulation);
     if (name == "largest_use") return use;
-    return use > 0 ? 1 / use : none;  // reserve_factor
+    return use > 0 ? 1 / use : no_value;  // reserve_factor
   }
 
   std::shared_ptr<const StudyBase> base_;

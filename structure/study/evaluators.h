@@ -1,10 +1,14 @@
 #pragma once
 // How samples of collapses and of analyses become numbers.
+#include <limits>
 #include <memory>
 
 #include "study/study_base.h"
 
 namespace topple::structure::study {
+
+/// Of a measure that a sample does not have.
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 [[nodiscard]] std::unique_ptr<SampleEvaluator> collapse_evaluator(std::shared_ptr<const StudyBase> base);
 [[nodiscard]] std::unique_ptr<SampleEvaluator> analysis_evaluator(std::shared_ptr<const StudyBase> base);

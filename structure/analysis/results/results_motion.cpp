@@ -137,7 +137,7 @@ class HistoryTable {
   std::string text_;
 };
 
-std::string file_name(const std::string& name) {
+std::string history_file_name(const std::string& name) {
   std::string safe = name;
   for (char& c : safe)
     if (c == '/' || c == '\\' || c == ':') c = '_';
@@ -158,7 +158,7 @@ NamedTexts motion_csv(const Building& building, const AnalysisRequest& request, 
       table.add(state.combination, *state.dynamic);
       any = true;
     }
-    if (any) files.emplace_back(file_name(building[loss.member].name), table.release());
+    if (any) files.emplace_back(history_file_name(building[loss.member].name), table.release());
   }
   if (result.motions.empty()) return files;
   HistoryTable table(building, wanted);

@@ -209,7 +209,7 @@ class Grid {
 };
 
 /// A combination's name as a file's: what a file system may refuse becomes '_'.
-std::string file_name(const std::string& name) {
+std::string vtu_file_name(const std::string& name) {
   std::string safe;
   for (const char c : name) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
@@ -248,7 +248,7 @@ NamedTexts results_vtu(const Building& building, const AnalysisResult& result) {
   NamedTexts files;
   std::set<std::string> taken;
   for (const CombinationResult& combination : result.combinations) {
-    std::string name = file_name(building[combination.combination].name);
+    std::string name = vtu_file_name(building[combination.combination].name);
     while (!taken.insert(name).second) name += '_';
     files.emplace_back(
         name + ".vtu",

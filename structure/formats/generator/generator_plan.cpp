@@ -9,7 +9,7 @@ namespace topple::structure::formats {
 
 namespace {
 
-constexpr std::int64_t most_lines = 10'000, most_storeys = 10'000;
+constexpr std::int64_t most_lines = 10'000;
 
 class PlanReader {
  public:

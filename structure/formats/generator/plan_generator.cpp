@@ -11,8 +11,6 @@ namespace topple::structure::formats {
 
 namespace {
 
-constexpr std::int64_t most_storeys = 10'000;
-
 class PlanGenerator {
  public:
   PlanGenerator(const JsonValue& place, ModelDraft& draft) : place_(place), draft_(draft) {}

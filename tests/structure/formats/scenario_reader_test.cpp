@@ -1,6 +1,7 @@
 // The scenario reader takes in every tool and rule that is built, and refuses the others by their name.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <filesystem>
 
 #include "example_model.h"
 #include "topple/structure/error.h"
@@ -28,7 +29,9 @@ const std::string scenario_text = R"({
   ]
 })";
 
-std::pair<Building, Scenario> read(const std::string& text) { return parse_scenario(text, "s.json", {}); }
+std::pair<Building, Scenario> read(const std::string& text) {
+  return parse_scenario(text, "s.json", std::filesystem::path());
+}
 
 std::string error_of(const std::string& text) {
   try {
