@@ -1,5 +1,7 @@
 # The renderer and the viewer; left out where they are not built.
 if(TOPPLE_VIEWER)
+  pkg_check_modules(IMGUI REQUIRED imgui)
+  set_source_files_properties("${CMAKE_CURRENT_LIST_DIR}/start_page_test.cpp" "${CMAKE_CURRENT_LIST_DIR}/scale_test.cpp" PROPERTIES INCLUDE_DIRECTORIES "${IMGUI_INCLUDE_DIRS}")
   topple_tests(viewer topple_viewer_app)
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
@@ -7,8 +9,6 @@ if(TOPPLE_VIEWER)
   target_compile_definitions(test_viewer PRIVATE TOPPLE_VIEWER_PROGRAM="$<TARGET_FILE:topple-viewer>"
     TOPPLE_PROGRAM="$<TARGET_FILE:topple>")
   add_dependencies(test_viewer topple-viewer topple)
-  pkg_check_modules(IMGUI REQUIRED imgui)
-  set_source_files_properties("${CMAKE_CURRENT_LIST_DIR}/start_page_test.cpp" "${CMAKE_CURRENT_LIST_DIR}/scale_test.cpp" PROPERTIES INCLUDE_DIRECTORIES "${IMGUI_INCLUDE_DIRS}")
 
   find_package(Python3 COMPONENTS Interpreter)
   if(Python3_FOUND)
