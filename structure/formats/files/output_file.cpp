@@ -115,11 +115,13 @@ struct OutputFile::State {
     for (int i = 0; i < attempts && descriptor < 0; ++i) {
       fs::path own = own_name(target, i);
       name = TemporaryName(own);
-      descriptor = ::open(own.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
-      if (descriptor >= 0) {  // nothing here takes memory: what was made is known
-        name.known();
+      const bool made = name.make([&] {
+        descriptor = ::open(own.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+        return descriptor >= 0;
+      });
+      if (made)
         temporary = std::move(own);
-      } else if (errno != EEXIST)
+      else if (errno != EEXIST)
         break;
     }
     if (descriptor < 0)

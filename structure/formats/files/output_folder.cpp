@@ -45,8 +45,8 @@ OutputFolder::OutputFolder(fs::path folder, const std::vector<fs::path>& inputs,
   };
   std::error_code error;
   name_ = std::make_unique<TemporaryName>(folder_);
-  made_ = fs::create_directories(folder_, error);
-  made_ ? name_->known() : name_->forget();
+  made_ = name_->make([&] { return fs::create_directories(folder_, error); });
+  if (!made_) name_->forget();
   if (error) refuse("cannot be made: " + error.message(), "a folder for the results");
   claim_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (claim_ < 0) refuse("cannot be opened: " + std::string(std::strerror(errno)), "a folder for the results");

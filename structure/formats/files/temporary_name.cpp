@@ -1,5 +1,6 @@
 #include "formats/files/temporary_name.h"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <array>
@@ -25,6 +26,8 @@ namespace {
 
 std::atomic<TemporaryName::Slot*> slots{nullptr};
 std::atomic<bool> ending{false};
+std::atomic<int> making{0};  ///< threads that are between making something and knowing it
+constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP};
 
 /// Slots that no name has: handed out under a lock, which a signal's handler never takes.
 struct FreeSlots {
@@ -57,6 +60,8 @@ TemporaryName::Slot* claim_slot() {
 void remove_and_end(int signal) {
   const int error = errno;
   ending = true;
+  // Not for ever: a file system that does not answer must not keep a program from being ended.
+  for (int tries = 0; making > 0 && tries < 1000; ++tries) (void)::poll(nullptr, 0, 1);
   const auto each = [](auto remove) {
     for (const TemporaryName::Slot* slot = slots; slot != nullptr; slot = slot->next)
       if (const char* path = slot->path) (void)remove(path);
@@ -92,6 +97,19 @@ TemporaryName& TemporaryName::operator=(TemporaryName&& other) noexcept {
 
 TemporaryName::~TemporaryName() { forget(); }
 
+TemporaryName::Making::Making() noexcept {
+  sigset_t held;
+  sigemptyset(&held);
+  for (const int signal : ending_signals) sigaddset(&held, signal);
+  ::pthread_sigmask(SIG_BLOCK, &held, &before_);
+  ++making;
+}
+
+TemporaryName::Making::~Making() {
+  --making;
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
 void TemporaryName::known() noexcept {
   slot_->path = path_;
   if (ending) (void)::unlink(path_);  // the handler may have passed this slot already
@@ -109,7 +127,7 @@ void TemporaryName::forget() noexcept {
 
 void remove_temporaries_on_signals() {
   (void)free_slots();
-  for (const int signal : std::array{SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : ending_signals) {
     struct sigaction now {};
     if (::sigaction(signal, nullptr, &now) != 0 || now.sa_handler != SIG_DFL) continue;  // nohup ignores SIGHUP
     now = {};
