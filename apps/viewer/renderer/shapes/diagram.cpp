@@ -8,12 +8,6 @@ namespace {
 
 constexpr float fill_alpha = 0.55F;
 
-Rgba with_alpha(Rgba colour, float alpha) {
-  glm::vec4 c = unpack(colour);
-  c.a = alpha;
-  return rgba(c);
-}
-
 /// The straight line between a member's drawn ends, and its axes.
 struct Axis {
   glm::vec3 first, last;

@@ -18,10 +18,6 @@ Rgba force_torque_hue(double force, double torque, const JointPalette& palette) 
   return rgba(blend(force > torque ? palette.force : palette.torque, palette.both, both));
 }
 
-Rgba faded(Rgba colour, double alpha) {
-  return (colour & 0x00FFFFFFU) | static_cast<Rgba>(std::lround(255 * std::clamp(alpha, 0.0, 1.0))) << 24U;
-}
-
 double component_share(const FrameAnswer::Joint& joint, const structure::JointCapacity& capacity,
                        const ViewOptions& options, double largest) {
   const auto c = static_cast<std::size_t>(options.component);
@@ -44,6 +40,10 @@ Rgba rgba(glm::vec4 colour) {
 glm::vec4 unpack(Rgba colour) {
   const auto part = [colour](unsigned shift) { return static_cast<float>(colour >> shift & 0xFFU) / 255.0F; };
   return {part(0), part(8), part(16), part(24)};
+}
+
+Rgba with_alpha(Rgba colour, double alpha) {
+  return (colour & 0x00FFFFFFU) | static_cast<Rgba>(std::lround(255 * std::clamp(alpha, 0.0, 1.0))) << 24U;
 }
 
 Rgba member_colour(structure::MemberKind kind) {
@@ -130,7 +130,7 @@ Rgba joint_colour(const FrameAnswer::Joint& joint, const structure::JointCapacit
                   double largest) {
   const JointPalette palette = joint_palette(options.colour_blind_safe);
   if (options.colouring == Colouring::materials) return 0;
-  if (!joint.intact) return faded(failed_colour(options), options.failed_joints ? 1 : 0);
+  if (!joint.intact) return with_alpha(failed_colour(options), options.failed_joints ? 1 : 0);
   if (options.colouring == Colouring::plain || options.colouring == Colouring::segments ||
       options.colouring == Colouring::path || !joint.standing)
     return 0;
@@ -140,7 +140,7 @@ Rgba joint_colour(const FrameAnswer::Joint& joint, const structure::JointCapacit
   const double full = options.scale == Scale::capacity ? 1.0 : std::max(largest, 1e-9);
   const double force = joint.force_share / full, torque = joint.torque_share / full;
   // The root: at a third of the capacity a joint is to be seen, not only near its failure.
-  return faded(force_torque_hue(force, torque, palette), std::sqrt(std::max(force, torque)));
+  return with_alpha(force_torque_hue(force, torque, palette), std::sqrt(std::max(force, torque)));
 }
 
 }  // namespace topple::viewer

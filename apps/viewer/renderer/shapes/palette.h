@@ -16,6 +16,8 @@ using Rgba = std::uint32_t;  ///< red in the lowest byte, as OpenGL reads it
 /// Components 0 to 1.
 [[nodiscard]] Rgba rgba(glm::vec4 colour);
 [[nodiscard]] glm::vec4 unpack(Rgba colour);
+/// The same colour with another alpha, 0 to 1.
+[[nodiscard]] Rgba with_alpha(Rgba colour, double alpha);
 
 [[nodiscard]] Rgba member_colour(structure::MemberKind kind);
 [[nodiscard]] Rgba panel_colour(structure::PanelKind kind);
