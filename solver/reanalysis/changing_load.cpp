@@ -6,6 +6,7 @@ namespace topple::solver {
 
 ChangingLoad::ChangingLoad(const FrameModel& model)
     : node_loads_(model.nodes.size(), Vec6::Zero()),
+      borne_(node_loads_),
       fixed_end_(model.beams.size(), Vec12::Zero()),
       at_nodes_(model.beams.size(), Vec12::Zero()),
       unbalanced_(model.beams.size(), 0) {}
@@ -34,6 +35,8 @@ void ChangingLoad::update(const FrameSystem& system) {
   } else {
     for (const int node : stale_nodes_) sum_up_at(system, node);
   }
+  for (const int node : stale_nodes_)
+    borne_[static_cast<std::size_t>(node)] = node_loads_[static_cast<std::size_t>(node)];
   stale_nodes_.clear();
   load_.unbalanced_beams.clear();
   for (std::size_t i = 0; i < unbalanced_.size(); ++i)
