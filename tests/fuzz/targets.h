@@ -223,11 +223,13 @@ inline void call(Simulation& s, Choices& c, Snapshot& saved) {
     case 7:
       return (void)s.what_carries(c.id<PanelId>(b.panels.size()));
     case 8:
-      return (void)(s.body_of(c.id<MemberId>(b.members.size())), s.broken_panel(c.id<PanelId>(b.panels.size())));
+      (void)s.body_of(c.id<MemberId>(b.members.size()));
+      return (void)s.broken_panel(c.id<PanelId>(b.panels.size()));
     case 9:
       return (void)s.ray_cast(c.vector(10), c.vector(1));
     case 10:
-      return (void)(s.next_to_break(c.byte()), s.skip_idle(), s.ledger());
+      (void)s.next_to_break(c.byte());
+      return (void)(s.skip_idle(), s.ledger());
     default:
       for (int i = c.byte() % 8; i >= 0; --i) s.step();
       for (const double coordinate : s.poses())

@@ -33,7 +33,7 @@ MemberId member(const Building& building, const std::string& name) {
 
 LossResult losses(const Building& building, const std::vector<MemberId>& named, double sudden,
                   const std::vector<MemberId>& each = {}) {
-  return find_losses(building, {CombinationId(0u)}, {named, each, sudden}, {});
+  return find_losses(building, {CombinationId(0u)}, {.named = named, .each = each, .sudden = sudden, .motion = {}}, {});
 }
 
 /// Two portals beside each other that share the middle post; beams hold at both ends.

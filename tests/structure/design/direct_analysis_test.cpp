@@ -51,7 +51,9 @@ TEST_CASE("a leaning cantilever of reduced stiffness has the foot moment of a be
     CHECK(std::abs(reaction(x ? 4 : 3)) == Approx(moment).epsilon(1e-9));  // asked of P-Delta: 1e-8 of axial forces
     CHECK(reaction(x ? 0 : 1) == Approx(-H).epsilon(1e-9));
   }
-  check_design(leaning, DesignCode::aisc360, usual_drift_limit, result, {.lengths = EffectiveLengths::unbraced});
+  DesignInput input;
+  input.lengths = EffectiveLengths::unbraced;
+  check_design(leaning, DesignCode::aisc360, usual_drift_limit, result, input);
   const DesignResult& used = result.combinations[0].designs[0];
   CHECK(used.lengths.y == L);  // K = 1, where a cantilever alone would have 2
   CHECK(used.lengths.z == L);
