@@ -1,6 +1,7 @@
 #pragma once
 // What a FrameDynamics holds. Vectors are in the scaled equations of its frame system: displacements x with u = S x,
 // forces S f.
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -56,6 +57,10 @@ struct FrameDynamics::State {
   [[nodiscard]] const FrameSystem& system() const { return *core().system; }
   [[nodiscard]] Eigen::Index equations() const { return system().dofs().equations; }
   [[nodiscard]] const MotionState& current() const { return before; }
+  /// d a1, s2: what damping of stiffness takes of an impulse, which lasts for d.
+  [[nodiscard]] double damped_in_impulse() const {
+    return std::max(method.h, options.shortest_impulse) * options.damping.stiffness;
+  }
 
   // structural_change.cpp
   /// Takes over what changed since the last substep, or within it.

@@ -46,9 +46,11 @@ FrameDynamics::State::State(FrameModel model, MassModel masses, DynamicOptions g
       frame(std::move(model), options.analysis),
       started_at(frame.model().nodes.size(), Vec6::Zero()),
       nodes(frame.model().nodes.size()),
-      jumps(std::make_unique<Jumps>(options.analysis, method.h * options.damping.stiffness)) {
+      jumps(std::make_unique<Jumps>(options.analysis, damped_in_impulse())) {
   options.wave_times = wave_times_of(frame.model(), options.wave_times);
   if (!(options.damping.mass >= 0)) throw std::invalid_argument("damping must not be negative");
+  if (!(options.shortest_impulse >= 0) || !std::isfinite(options.shortest_impulse))
+    throw std::invalid_argument("an impulse must last for 0 s or longer");
   core().system->inertia = &inertia;
 }
 

@@ -13,14 +13,14 @@ namespace {
 /// answers of the factor, of which one is nearly always enough.
 constexpr double solved = 1e-12;
 constexpr int most_event_passes = 2000, most_refinements = 3;
-/// Damping over a substep, of s: with less than this conjugate gradients on M take few passes.
+/// Damping over an impulse, of s: with less than this conjugate gradients on M take few passes.
 constexpr double least_share = 0.01;
 
 double diagonal_of(const SparseSymmetric& A, Eigen::Index equation) {
   return A.value[static_cast<std::size_t>(A.start[static_cast<std::size_t>(equation)])];
 }
 
-/// With d = h a1: M + d K = d (K + s M) + (1 - d s) M.
+/// With e = d a1: M + e K = e (K + s M) + (1 - e s) M.
 double share_of_mass(const FrameSystem& system, double softened) { return 1 - softened * system.inertia->factor; }
 
 }  // namespace
@@ -40,7 +40,7 @@ Eigen::VectorXd FrameDynamics::State::Jumps::on_mass(const FrameSystem& system, 
   return impulses;
 }
 
-/// Stiffness damps what an impulse sets going within a substep: by so much of s that it has to be counted.
+/// Stiffness damps what an impulse sets going while it lasts: by so much of s that it has to be counted.
 bool FrameDynamics::State::Jumps::damps(const FrameSystem& system) const {
   return softened_ * system.inertia->factor > least_share;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// How the velocities of a frame that moves answer impulses: (M + h a1 K)^-1, by conjugate gradients on M where damping
-// is next to nothing, else by a factor of its own.
+// How the velocities of a frame that moves answer impulses of the duration d: (M + d a1 K)^-1, by conjugate gradients
+// on M where damping is next to nothing, else by a factor of its own.
 #include <iosfwd>
 #include <memory>
 
@@ -10,21 +10,21 @@ namespace topple::solver {
 
 class FrameDynamics::State::Jumps {
  public:
-  /// `softened`: h a1, s2.
+  /// `softened`: d a1, s2.
   Jumps(const AnalysisOptions& options, double softened);
   ~Jumps();
   Jumps(const Jumps&) = delete;
   Jumps& operator=(const Jumps&) = delete;
-  /// The matrix K + s M has another s, or another h a1.
+  /// The matrix K + s M has another s, or another d a1.
   void set_softened(double softened);
   /// The frame's matrices are others.
   void forget_frame() { followed_ = false; }
 
   /// In the scaled equations: what freedoms without mass are given comes to nothing.
   [[nodiscard]] static Eigen::VectorXd on_mass(const FrameSystem& system, Eigen::VectorXd impulses);
-  /// (M + h a1 K)^-1 times impulses on mass.
+  /// (M + d a1 K)^-1 times impulses on mass.
   [[nodiscard]] Eigen::VectorXd velocities(const FrameSystem& system, const Eigen::VectorXd& impulses);
-  /// F' (M + h a1 K)^-1 F of impulses in columns, of which those on mass alone act.
+  /// F' (M + d a1 K)^-1 F of impulses in columns, of which those on mass alone act.
   [[nodiscard]] Eigen::MatrixXd mobility(const FrameSystem& system, const Eigen::MatrixXd& F);
 
   // dynamics_archive.cpp. `system`: the frame's, as it was loaded.

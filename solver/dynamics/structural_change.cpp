@@ -87,7 +87,7 @@ void FrameDynamics::State::set_method(const GeneralizedAlpha& other) {
   const auto scale = [&]() -> Eigen::VectorXd { return scale_of(system()); };
   const Eigen::VectorXd scaled_by = scale();
   method = other;
-  jumps->set_softened(method.h * options.damping.stiffness);
+  jumps->set_softened(damped_in_impulse());
   inertia.factor = method.s;
   core().rebuild();
   core().answered = false;

@@ -62,6 +62,7 @@ inline Tool random_tool(RandomNumbers& random, const Building& building, const V
       ball.cable = random.from(11, 12 + 0.7 * size.z());
       const double angle = random.from(0.4, 1.2);
       ball.from = ball.anchor + ball.cable * Vec3(-std::sin(angle), 0, -std::cos(angle));
+      ball.cable = std::max(ball.cable, (ball.from - ball.anchor).norm());  // rounding
       ball.mass = random.from(500, 3000);
       ball.radius = 0.6;
       return ball;

@@ -8,6 +8,11 @@ struct MotionSettings {
   /// seed building peak within 1 % of all its modes after a loss, at four 0.3 % of them do not (docs/dynamics.md).
   /// Longer: peaks are missed; shorter: dearer.
   double longest_substep = 1.0 / 480;
+  /// s. An impulse acts over a substep, and over no less than this: what it throws is damped by stiffness for so long.
+  /// A hit on a member lasts for some milliseconds. As long as a substep alone, a shot's own speed after it would hang
+  /// on the substep (4.3 m/s at 1/480 s, 4.8 at 1/1920 of what hits the house with 60 m/s). Longer: what is hit is
+  /// heavier.
+  double shortest_impulse = 1.0 / 480;
   /// What a substep leaves of motion that it cannot resolve: the shock of a break or an impact dies away in some
   /// substeps. What resolved motion loses is accounted on its own.
   double spectral_radius = 0.8;
@@ -31,10 +36,10 @@ struct MotionSettings {
 
 template <class Archive>
 void serialize(Archive& archive, MotionSettings& settings) {
-  auto& [longest_substep, spectral_radius, metal_damping, other_damping, metal_modulus, rest_utilisation,
-         rest_displacement, rest_looks, largest_turn, falling_turn] = settings;
-  archive(longest_substep, spectral_radius, metal_damping, other_damping, metal_modulus, rest_utilisation,
-          rest_displacement, rest_looks, largest_turn, falling_turn);
+  auto& [longest_substep, shortest_impulse, spectral_radius, metal_damping, other_damping, metal_modulus,
+         rest_utilisation, rest_displacement, rest_looks, largest_turn, falling_turn] = settings;
+  archive(longest_substep, shortest_impulse, spectral_radius, metal_damping, other_damping, metal_modulus,
+          rest_utilisation, rest_displacement, rest_looks, largest_turn, falling_turn);
 }
 
 #ifdef TOPPLE_VARIED_CONSTANTS  // benchmarks/constants: each halved and doubled

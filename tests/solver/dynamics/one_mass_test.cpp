@@ -216,3 +216,25 @@ TEST_CASE("An impulse on a damped mass leaves it what an implicit step of its da
     CHECK(frame.velocities()[0].z() == Approx(exact).epsilon(1e-12));
   }
 }
+
+TEST_CASE("What an impulse leaves does not hang on substeps below its shortest duration") {
+  const double duration = period / 20, impulse = 30, a1 = 2 / angular_frequency;
+  for (const int parts : {1, 3, 16}) {
+    INFO(parts << " substeps in its duration");
+    DynamicOptions options = with(duration / parts, 1, {0, a1});
+    options.shortest_impulse = duration;
+    FrameDynamics frame(one_mass(), its_mass(), options);
+    const std::vector<std::vector<FrameDynamics::Impulse>> push = {{{0, unit(2, impulse)}}};
+    const double exact = impulse / (mass + duration * a1 * stiffness);
+    CHECK(frame.velocities_of(push[0])[0].z() == Approx(exact).epsilon(1e-12));
+    CHECK(frame.mobility(push)(0, 0) == Approx(impulse * exact).epsilon(1e-12));
+    frame.strike(push[0]);
+    CHECK(frame.velocities()[0].z() == Approx(exact).epsilon(1e-12));
+    frame.advance();
+    const DynamicEnergy& energy = frame.energy();
+    CHECK(energy.kinetic + energy.elastic + energy.damped + energy.numerical == Approx(energy.struck).epsilon(1e-12));
+  }
+  DynamicOptions options = with(duration, 1, {0, a1});
+  options.shortest_impulse = -duration;
+  CHECK_THROWS_AS(FrameDynamics(one_mass(), its_mass(), options), std::invalid_argument);
+}

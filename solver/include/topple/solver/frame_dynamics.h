@@ -34,6 +34,9 @@ struct DynamicOptions {
   /// power of the substep.
   double spectral_radius = 0.8;
   RayleighDamping damping;  ///< C of the equations of motion
+  /// s. An impulse acts over a substep, and over no less than this: by (M + duration a1 K)^-1, as damping takes what it
+  /// sets going within that time. With substeps below it what an impulse leaves does not hang on them.
+  double shortest_impulse = 0;
   /// Axial forces act on the beams as they lie at the moment: end forces are those of the displaced beam, and the work
   /// of the geometric forces counts as external.
   bool second_order = false;
