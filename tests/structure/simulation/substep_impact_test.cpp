@@ -90,6 +90,7 @@ TEST_CASE("How fast a shot flies on from what it hit does not hang on the subste
   const auto speed = [](int substeps) {
     auto [building, scenario] = read_scenario(find_scenario("house_hit"));
     scenario.motion.substeps = substeps;
+    std::get<Projectile>(scenario.events.at(0).tool).mass = 65;  // it breaks the post's foot, and is nearly stopped
     Simulation simulation(std::move(building), std::move(scenario));
     const auto x = [&] {
       for (const BodyView& body : simulation.bodies())
@@ -105,7 +106,7 @@ TEST_CASE("How fast a shot flies on from what it hit does not hang on the subste
   CHECK(std::abs(usual) < 30);  // it has hit: it came with 60 m/s
   for (const int substeps : {16, 32}) {
     INFO(substeps << " substeps of a sixtieth of a second");
-    CHECK(speed(substeps) == Approx(usual).epsilon(1e-3));  // the first substep's own error; 0.03 and 0.05 with
-                                                            // impulses as long as a substep
+    // Rounding; 0.06 and 0.10 off with impulses that act as long as a substep.
+    CHECK(speed(substeps) == Approx(usual).epsilon(1e-9));
   }
 }
