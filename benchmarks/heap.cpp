@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
     double whole = 0, worst = 0, sweeps = 0, wall_force = 0;
     for (int i = 0; i < 60; ++i) {
       const auto begin = clock::now();
-      (void)world->sweep(kStep, Sweep::obstacles);
+      (void)world->sweep(kStep, {Sweep::obstacles});
       const auto swept = clock::now();
       world->step(kStep);
       const double took = ms(clock::now() - begin);

@@ -97,8 +97,7 @@ class BulletWorld final : public World {
   void ignore_until_separated(BodyId body, const Touched& other) override;
   [[nodiscard]] std::span<const BodyId> bodies() const override { return order_; }
   [[nodiscard]] std::size_t awake_count() const override;
-  [[nodiscard]] std::vector<Contact> sweep(double dt, Sweep what, double least_speed,
-                                           std::optional<std::span<const BodyId>> among) override;
+  [[nodiscard]] std::vector<Contact> sweep(double dt, const SweepOptions& options) override;
   void step(double dt) override;
   [[nodiscard]] std::span<const Contact> contacts() const override { return contacts_; }
   [[nodiscard]] std::optional<RayHit> ray_cast(const Vec3& from, const Vec3& to) const override;

@@ -208,6 +208,16 @@ struct GroundPair : ClosingPair {
   }
 };
 
+/// Of the corner of the area of contact that closes fastest: one edge of a part that lies across another may come down
+/// on it while the other lifts.
+double fastest_approach(const ClosingPair& pair, const Touch& touch) {
+  if (touch.corner_count == 0) return pair.approach_speed(touch.normal, touch.point, touch.time);
+  double fastest = -BT_LARGE_FLOAT;
+  for (int i = 0; i < touch.corner_count; ++i)
+    fastest = std::max(fastest, pair.approach_speed(touch.normal, touch.corners[i], touch.time));
+  return fastest;
+}
+
 }  // namespace
 
 btTransform Motion::at(double time) const {
@@ -258,7 +268,7 @@ std::optional<Touch> first_touch(const SolidPart& first, const Motion& first_mot
   std::optional<Touch> touch = advance(pair, duration);
   if (!touch) return touch;
   find_contact_area(first, first_motion.at(touch->time), second, second_motion.at(touch->time), *touch);
-  touch->approach_speed = pair.approach_speed(touch->normal, touch->point, touch->time);
+  touch->approach_speed = fastest_approach(pair, *touch);
   return touch;
 }
 
@@ -268,7 +278,7 @@ std::optional<Touch> first_touch_of_ground(const SolidPart& part, const Motion& 
   std::optional<Touch> touch = advance(pair, duration);
   if (!touch) return touch;
   set_contact_area(lowest_points(part, motion.at(touch->time), kContactBand).points, *touch);
-  touch->approach_speed = pair.approach_speed(touch->normal, touch->point, touch->time);
+  touch->approach_speed = fastest_approach(pair, *touch);
   return touch;
 }
 

@@ -23,7 +23,7 @@ struct Touch {
   double time = 0;
   btVector3 normal{0, 0, 0};  ///< from the first part into the second
   btVector3 point{0, 0, 0};   ///< centre of the area of contact
-  double approach_speed = 0;
+  double approach_speed = 0;  ///< of the corner that closes fastest
   int corner_count = 0;
   btVector3 corners[4];
 };

@@ -227,14 +227,13 @@ void DebrisWorld::remove_contacts_of(Touched::Kind kind, std::int64_t id) {
 
 void DebrisWorld::ignore_until_separated(BodyId id, const Touched& other) { ignored_.add(id, other); }
 
-std::vector<Contact> DebrisWorld::sweep(double dt, Sweep what, double least_speed,
-                                        std::optional<std::span<const BodyId>> among) {
+std::vector<Contact> DebrisWorld::sweep(double dt, const SweepOptions& options) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("sweep of " + std::to_string(dt) + " s; it must be above zero");
   if (!stepping_) ignored_.release(dt, false);  // what was told to pass does so for a whole step
   std::vector<Contact> found;
-  if (what == Sweep::obstacles && scene_.obstacles.empty()) return found;
-  found = first_touches(scene_, ignored_, {what, dt, least_speed, among});
+  if (options.what == Sweep::obstacles && scene_.obstacles.empty()) return found;
+  found = first_touches(scene_, ignored_, {dt, options});
   report_.mark_persistent(found);
   std::sort(found.begin(), found.end(), [](const Contact& a, const Contact& b) {
     if (a.time != b.time) return a.time < b.time;

@@ -48,8 +48,7 @@ class DebrisWorld final : public World {
   void ignore_until_separated(BodyId body, const Touched& other) override;
   [[nodiscard]] std::span<const BodyId> bodies() const override { return scene_.order; }
   [[nodiscard]] std::size_t awake_count() const override { return scene_.awake_count; }
-  [[nodiscard]] std::vector<Contact> sweep(double dt, Sweep what, double least_speed,
-                                           std::optional<std::span<const BodyId>> among) override;
+  [[nodiscard]] std::vector<Contact> sweep(double dt, const SweepOptions& options) override;
   void step(double dt) override;
   void step(double dt, int parts, MovingStructure& structure) override;
   [[nodiscard]] bool steps_in_parts() const override { return true; }

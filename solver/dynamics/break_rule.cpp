@@ -42,7 +42,9 @@ Vec12 FrameDynamics::State::fixed_end_of_loads(std::size_t beam, bool at_end) co
 }
 
 Vec12 FrameDynamics::State::fixed_end_forces(int beam, bool at_end) const {
-  Vec12 fixed = fixed_end_of_loads(static_cast<std::size_t>(beam), at_end);
+  Vec12 fixed =
+      recent_loads.felt(beam, core().load.fixed_end(static_cast<std::size_t>(beam)), method.h, at_end, accepted);
+  patterns.add_fixed_end(beam, at_end, fixed);
   kinks.add_fixed_end(static_cast<std::size_t>(beam), at_end, fixed);
   return fixed;
 }
@@ -95,11 +97,17 @@ void FrameDynamics::State::record_break(const JointBreak& found, double share, c
   ++counters.breaks;
   frame.set_end_stiffness(found.beam, found.end, Vec6::Zero());
   // A beam that hangs on a pin alone is no part of the frame: it leaves.
-  const auto i = static_cast<std::size_t>(found.beam);
-  Beam left = system().model.beams[i];
-  left.end_stiffness = core().changes.beam(i).end_stiffness;
-  if (CondensedBeam(left, system().beam_factor[i]).loose())
-    frame.set_end_stiffness(found.beam, 1 - found.end, Vec6::Zero());
+  const RecentLoads::Held left = held(found.beam);
+  if (CondensedBeam(left.beam, left.factor).loose()) frame.set_end_stiffness(found.beam, 1 - found.end, Vec6::Zero());
+  recent_loads.hold_otherwise(found.beam, held(found.beam));
+}
+
+/// By the end stiffness that it has from now on.
+RecentLoads::Held FrameDynamics::State::held(int beam) const {
+  const auto i = static_cast<std::size_t>(beam);
+  RecentLoads::Held held{system().model.beams[i], system().beam_factor[i]};
+  held.beam.end_stiffness = core().changes.beam(i).end_stiffness;
+  return held;
 }
 
 bool FrameDynamics::State::break_joints(const JointLaw& law) {

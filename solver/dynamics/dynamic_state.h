@@ -15,6 +15,7 @@
 #include "dynamics/motion_state.h"
 #include "dynamics/node_motions.h"
 #include "dynamics/plastic_kinks.h"
+#include "dynamics/recent_loads.h"
 #include "dynamics/settling_load.h"
 #include "dynamics/substep_equation.h"
 #include "reanalysis/reanalysis_state.h"
@@ -31,6 +32,7 @@ struct FrameDynamics::State {
   SystemInertia inertia;
   Reanalysis frame;
   LoadPatterns patterns;
+  RecentLoads recent_loads;
   PlasticKinks kinks;
   double time = 0;
 
@@ -108,9 +110,10 @@ struct FrameDynamics::State {
   // break_rule.cpp
   [[nodiscard]] bool break_joints(const JointLaw& law);
   void record_break(const JointBreak& broken, double share, const SubstepCourse<Vec12>& course);
+  [[nodiscard]] RecentLoads::Held held(int beam) const;
   [[nodiscard]] Vec12 end_forces(int beam, bool at_end) const;
   [[nodiscard]] Vec12 elastic_end_forces(int beam, const std::vector<Vec6>& displacements, bool at_end) const;
-  /// Of its loads without kinks, and with them.
+  /// Of its loads as they act, and as its joints feel them, with kinks.
   [[nodiscard]] Vec12 fixed_end_of_loads(std::size_t beam, bool at_end) const;
   [[nodiscard]] Vec12 fixed_end_forces(int beam, bool at_end) const;
   [[nodiscard]] Vec12 end_force_rates(int beam, bool at_end) const;

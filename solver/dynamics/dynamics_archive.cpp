@@ -70,13 +70,13 @@ void FrameDynamics::State::Jumps::load_from(std::istream& from, const FrameSyste
 void FrameDynamics::save_state(std::ostream& to) const {
   // Of the options damping alone changes, of inertia its factor, which is the method's. The load that acts in a
   // substep, the geometric one and the equation are found in each substep anew.
-  const auto& [options, method, inertia, frame, patterns, kinks, time, before, now, accepted, started_at, nodes,
-               reactions, ledger, constant_load, collocated_load, substep_load, geometric, changed, waiting, jumps,
-               prepared, counters, breaks, equation] = *state_;
+  const auto& [options, method, inertia, frame, patterns, recent_loads, kinks, time, before, now, accepted, started_at,
+               nodes, reactions, ledger, constant_load, collocated_load, substep_load, geometric, changed, waiting,
+               jumps, prepared, counters, breaks, equation] = *state_;
   frame.save_state(to);
   StateWriter archive(to);
-  archive(options.damping, method, patterns, kinks, time, before, now, accepted, started_at, nodes, reactions, ledger,
-          constant_load, substep_load, changed, waiting, prepared, counters, breaks);
+  archive(options.damping, method, patterns, recent_loads, kinks, time, before, now, accepted, started_at, nodes,
+          reactions, ledger, constant_load, substep_load, changed, waiting, prepared, counters, breaks);
   jumps->save_to(to);
 }
 
@@ -84,9 +84,10 @@ void FrameDynamics::load_state(std::istream& from) {
   State& state = *state_;
   state.frame.load_state(from);
   StateReader archive(from);
-  archive(state.options.damping, state.method, state.patterns, state.kinks, state.time, state.before, state.now,
-          state.accepted, state.started_at, state.nodes, state.reactions, state.ledger, state.constant_load,
-          state.substep_load, state.changed, state.waiting, state.prepared, state.counters, state.breaks);
+  archive(state.options.damping, state.method, state.patterns, state.recent_loads, state.kinks, state.time,
+          state.before, state.now, state.accepted, state.started_at, state.nodes, state.reactions, state.ledger,
+          state.constant_load, state.substep_load, state.changed, state.waiting, state.prepared, state.counters,
+          state.breaks);
   state.inertia.factor = state.method.s;
   state.jumps->load_from(from, state.system());
 }

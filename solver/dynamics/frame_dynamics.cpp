@@ -1,6 +1,8 @@
 #include "topple/solver/frame_dynamics.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -31,6 +33,12 @@ std::vector<double> wave_times_of(const FrameModel& model, const std::vector<dou
   return times;
 }
 
+std::vector<Vec6> times_of_beams(const FrameModel& model, bool wanted) {
+  std::vector<Vec6> times;
+  if (wanted) std::transform(model.beams.begin(), model.beams.end(), std::back_inserter(times), times_to_feel);
+  return times;
+}
+
 }  // namespace
 
 RayleighDamping rayleigh_damping(double ratio, double first, double second) {
@@ -44,6 +52,7 @@ FrameDynamics::State::State(FrameModel model, MassModel masses, DynamicOptions g
       method(options.substep, options.spectral_radius, options.damping.stiffness),
       inertia{checked(masses), masses_at_nodes(model, masses), method.s},
       frame(std::move(model), options.analysis),
+      recent_loads(times_of_beams(frame.model(), options.beams_vibrate)),
       started_at(frame.model().nodes.size(), Vec6::Zero()),
       nodes(frame.model().nodes.size()),
       jumps(std::make_unique<Jumps>(options.analysis, damped_in_impulse())) {
@@ -66,6 +75,7 @@ FrameDynamics& FrameDynamics::operator=(FrameDynamics&&) noexcept = default;
 
 void FrameDynamics::set_end_stiffness(int beam, int end, const Vec6& stiffness) {
   state_->frame.set_end_stiffness(beam, end, stiffness);
+  state_->recent_loads.hold_otherwise(beam, state_->held(beam));
 }
 void FrameDynamics::remove_beam(int beam) { state_->frame.remove_beam(beam); }
 void FrameDynamics::remove_shell(int shell) { state_->frame.remove_shell(shell); }
@@ -94,7 +104,10 @@ void FrameDynamics::set_support_stiffness(int support, const Vec6& stiffness) {
 void FrameDynamics::drop_nodes(std::span<const int> nodes) { state_->frame.drop_nodes(nodes); }
 void FrameDynamics::set_node_load(int node, const Vec6& load) { state_->frame.set_node_load(node, load); }
 void FrameDynamics::set_beam_loads(int beam, std::vector<BeamLoad> loads) {
-  state_->frame.set_beam_loads(beam, std::move(loads));
+  State& state = *state_;
+  const std::size_t i = checked_beam(model(), beam);
+  state.recent_loads.change(beam, state.held(beam), state.core().changes.beam(i).loads, loads, state.method.h);
+  state.frame.set_beam_loads(beam, std::move(loads));
 }
 
 void FrameDynamics::set_plastic_rotation(int beam, int end, int component, double rotation) {

@@ -66,6 +66,7 @@ void FrameDynamics::State::accept() {
   time += method.h;
   changed.forget_brought();
   patterns.accept();
+  recent_loads.accept(method.h);
 }
 
 }  // namespace topple::solver

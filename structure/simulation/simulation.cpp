@@ -7,15 +7,10 @@
 
 #include "simulation/accounts/replay_hash.h"
 #include "simulation/call_checks.h"
-#include "simulation/impact/impact_settings.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
 
 namespace topple::structure {
-
-namespace {
-bool strikes(const collision::Contact& contact) { return contact.approach_speed >= impact_settings.least_speed; }
-}  // namespace
 
 void Simulation::step() {
   State& s = *state_;
@@ -32,12 +27,16 @@ void Simulation::step() {
     timed(Stage::load, [&] { s.tools.use(); });
     const auto contacts = timed(Stage::sweep, [&] { return s.sweep_step(); });
     timed(Stage::load, [&] { s.load(); });
+    const std::int64_t newest = s.debris.bodies.newest();
     timed(Stage::break_, [&] {
       s.hosts.strike_all();
       s.strike(contacts);
       s.scene.sways() ? s.begin_motion() : s.break_generations();
     });
-    timed(Stage::release, [&] { s.release.release(); });
+    timed(Stage::release, [&] {
+      s.release.release();
+      s.strike_released(newest);
+    });
     timed(Stage::move, [&] { s.move(); });
     if (s.scene.sways()) timed(Stage::break_, [&] { s.end_motion(); });
     timed(Stage::account, [&] { s.account(); });
@@ -60,7 +59,7 @@ Simulation::State::~State() = default;
 std::vector<collision::Contact> Simulation::State::sweep_bodies(double dt) {
   struck.clear();
   release_impulses.clear();
-  return sweep.contacts(dt);
+  return sweep.contacts(dt, scene.sways() && scene.world->steps_in_parts() ? moving_parts.get() : nullptr);
 }
 
 std::vector<collision::Contact> Simulation::State::sweep_step() {
@@ -134,13 +133,28 @@ void Simulation::State::strike_between(double dt) {
   std::vector<collision::Contact> contacts;
   const auto move = static_cast<std::size_t>(Stage::move);
   scene.timer.within(move, static_cast<std::size_t>(Stage::sweep), [&] { contacts = sweep_bodies(dt); });
-  if (std::none_of(contacts.begin(), contacts.end(), strikes)) return;
-  scene.timer.within(move, static_cast<std::size_t>(Stage::break_), [&] {
+  scene.timer.within(move, static_cast<std::size_t>(Stage::break_), [&] { strike_on(std::move(contacts), dt); });
+}
+
+/// What an impact lets go is beside something from the beginning, and may come upon that before it has moved: it is
+/// swept and strikes at once, until nothing more is let go.
+void Simulation::State::strike_on(std::vector<collision::Contact> contacts, double dt) {
+  while (std::any_of(contacts.begin(), contacts.end(), strikes)) {
+    const std::int64_t newest = debris.bodies.newest();
     scene.frame->read_demands();
     strike(contacts);
     record(scene.frame->extract_breaks());
     release.release();
-  });
+    if (debris.bodies.newest() == newest) return;
+    contacts = sweep_bodies(dt);
+  }
+}
+
+/// What tools and impacts let go as the step began: as strike_on(), in the first substep.
+void Simulation::State::strike_released(std::int64_t newest) {
+  if (!scene.sways() || !scene.world->steps_in_parts() || debris.bodies.newest() == newest) return;
+  const double first = scene.scenario.step / scene.frame->substeps();
+  strike_on(sweep_bodies(first), first);
 }
 
 void Simulation::State::end_motion() {

@@ -24,6 +24,8 @@ struct Simulation::State : StageParts {
   void begin_motion();
   void substep();
   void strike_between(double dt);
+  void strike_on(std::vector<collision::Contact> contacts, double dt);
+  void strike_released(std::int64_t newest);
   void end_motion();
   void move();
   void account();

@@ -70,7 +70,7 @@ void Sweep::approach(BodyMotion& one, const collision::BodyState& state) {
   one.seen = {room, state.pose.position, travel, state.pose.orientation, turned_by, reach};
 }
 
-std::vector<collision::Contact> Sweep::contacts(double dt) {
+std::vector<collision::Contact> Sweep::contacts(double dt, const collision::MovingStructure* structure) {
   for (BodyMotion& one : debris_.bodies.motions()) {
     const collision::BodyState state = scene_.world->state({one.id});
     if (!state.asleep) approach(one, state);
@@ -81,7 +81,9 @@ std::vector<collision::Contact> Sweep::contacts(double dt) {
   for (const std::int64_t id : debris_.bodies.composed())
     if (break_up_.may_fall_apart(collision::BodyId{id})) may_break.push_back({id});
   const collision::Sweep what = may_break.empty() ? collision::Sweep::obstacles : collision::Sweep::everything;
-  return scene_.timer.engine([&] { return scene_.world->sweep(dt, what, impact_settings.least_speed, may_break); });
+  return scene_.timer.engine([&] {
+    return scene_.world->sweep(dt, {what, impact_settings.least_speed, may_break, structure});
+  });
 }
 
 }  // namespace topple::structure

@@ -12,8 +12,9 @@ class Sweep {
   /// All must outlive it.
   Sweep(Scene& scene, Debris& debris, const BreakUp& break_up) : scene_(scene), debris_(debris), break_up_(break_up) {}
 
-  /// What awake bodies will touch within `dt`, s: a step, or a part of the one that runs.
-  [[nodiscard]] std::vector<collision::Contact> contacts(double dt);
+  /// What awake bodies will touch within `dt`, s: a step, or a part of the one that runs. `structure` where what stands
+  /// moves, else nullptr.
+  [[nodiscard]] std::vector<collision::Contact> contacts(double dt, const collision::MovingStructure* structure);
 
   /// It has nothing of its own.
   template <class Archive>

@@ -23,7 +23,12 @@ class Mount final : public MovingStructure {
   Vec3 impulse = Vec3::Zero(), moment = Vec3::Zero();  ///< of hinges so far, the moment about where it began
   double work = 0;                                     ///< of hinges
 
-  [[nodiscard]] std::optional<ObstacleMotion> motion(ObstacleId) override {
+  [[nodiscard]] std::optional<ObstaclePath> path(ObstacleId) const override {
+    const ObstacleMotion now = motion_now();
+    return ObstaclePath{now.pose, now.velocity, now.angular_velocity};
+  }
+  [[nodiscard]] std::optional<ObstacleMotion> motion(ObstacleId) override { return motion_now(); }
+  [[nodiscard]] ObstacleMotion motion_now() const {
     ObstacleMotion motion;
     motion.mass = motion.inertia(0, 0) = motion.inertia(1, 1) = motion.inertia(2, 2) = inertia / taken_lighter;
     if (turns) {

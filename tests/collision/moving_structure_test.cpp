@@ -22,7 +22,13 @@ class Platform final : public MovingStructure {
   double taken_lighter = 2;      ///< than it is, by the world
   bool moves = true;
 
-  [[nodiscard]] std::optional<ObstacleMotion> motion(ObstacleId obstacle) override {
+  [[nodiscard]] std::optional<ObstacleMotion> motion(ObstacleId obstacle) override { return motion_of(obstacle); }
+  [[nodiscard]] std::optional<ObstaclePath> path(ObstacleId obstacle) const override {
+    const std::optional<ObstacleMotion> now = motion_of(obstacle);
+    if (!now) return std::nullopt;
+    return ObstaclePath{now->pose, now->velocity, now->angular_velocity};
+  }
+  [[nodiscard]] std::optional<ObstacleMotion> motion_of(ObstacleId obstacle) const {
     if (!moves || obstacle.value != 0) return std::nullopt;  // the first
     ObstacleMotion motion;
     const double w = along_frequency;
@@ -246,4 +252,34 @@ TEST_CASE("a heap that leans on what sways sleeps but for what is near that, and
   INFO("asleep in the mean " << slept / 360.0 << ", moved " << moved);
   CHECK(slept / 360.0 > 1);  // of eight that do not touch the platform
   CHECK(gained + lost == Approx(0).margin(1e-9 * moved));
+}
+
+TEST_CASE(
+    "a sweep takes a platform along its path: it comes upon what flies before it, and runs away from what does not",
+    "[moving]") {
+  const auto world = world_with_platform();
+  world->set_gravity(Vec3::Zero());
+  Platform platform;
+  platform.height = 0.02;  // the world has it at zero still
+  const double gap = 0.01, part = kStep / kParts;
+  const BodyId box = add_box(*world, 100, platform.height + gap);
+  const auto fly = [&](double speed, double platform_speed) {
+    BodyState state = world->state(box);
+    state.velocity = Vec3(0, 0, speed);
+    world->set_state(box, state);
+    platform.speed = platform_speed;
+    return world->sweep(part, {.structure = &platform});
+  };
+  const std::vector<Contact> struck = fly(2, 8);
+  REQUIRE(struck.size() == 1);
+  CHECK(struck[0].approach_speed == Approx(6).epsilon(1e-6));
+  // To the distance at which parts count as touching, 0.1 mm.
+  CHECK(struck[0].time == Approx(gap / 6).margin(1e-4 / 6 * 1.01));
+  CHECK(struck[0].normal.z() == Approx(-1).epsilon(1e-6));
+  CHECK(fly(-4, -7).empty());
+  CHECK(fly(-4, -3).empty());  // 1 m/s closes 2 mm of them
+  const std::vector<Contact> met = fly(-6, 0);
+  REQUIRE(met.size() == 1);
+  CHECK(met[0].approach_speed == Approx(6).epsilon(1e-6));
+  CHECK(world->sweep(part).empty());  // to the place where the world has it there are 30 mm
 }

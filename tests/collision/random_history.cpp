@@ -259,10 +259,10 @@ void RandomHistory::ask() {
   const double dt = between(0.005, 0.02), least = random_() % 2 == 0 ? 0 : 0.5;
   const Sweep what = random_() % 3 == 0 ? Sweep::obstacles : Sweep::everything;
   const Vec3 from = point(-2, 2) + Vec3(0, 0, 2), to = point(-2, 2) - Vec3(0, 0, 1);
-  const std::vector<Contact> found = first().sweep(dt, what, least);
+  const std::vector<Contact> found = first().sweep(dt, {what, least});
   const std::optional<RayHit> hit = first().ray_cast(from, to);
   for (const Beside& of : std::span(all_).subspan(1)) {
-    require_same_found(found, of.world->sweep(dt, what, least));
+    require_same_found(found, of.world->sweep(dt, {what, least}));
     const std::optional<RayHit> other = of.world->ray_cast(from, to);
     REQUIRE(hit.has_value() == other.has_value());
     if (hit) REQUIRE((same_touched(hit->what, other->what) && hit->point == other->point));

@@ -17,18 +17,11 @@ class Swaying final : public MovingStructure {
   void hold(ObstacleId obstacle, const Pose& home) { held_[obstacle.value].home = home; }
   void let_go(ObstacleId obstacle) { held_.erase(obstacle.value); }
 
-  [[nodiscard]] std::optional<ObstacleMotion> motion(ObstacleId obstacle) override {
-    const auto found = held_.find(obstacle.value);
-    if (!sways || found == held_.end() || obstacle.value % 3 == 0) return std::nullopt;
-    const Held& held = found->second;
-    ObstacleMotion motion;
-    motion.pose = held.home;
-    motion.pose.position += held.way + Vec3(amplitude * std::sin(rate * time_), 0, 0);
-    motion.velocity = held.speed + Vec3(amplitude * rate * std::cos(rate * time_), 0, 0);
-    motion.acceleration = held.acceleration - Vec3(amplitude * rate * rate * std::sin(rate * time_), 0, 0);
-    motion.mass = mass / 2;
-    motion.inertia = mass * Mat3::Identity();
-    return motion;
+  [[nodiscard]] std::optional<ObstacleMotion> motion(ObstacleId obstacle) override { return motion_of(obstacle); }
+  [[nodiscard]] std::optional<ObstaclePath> path(ObstacleId obstacle) const override {
+    const std::optional<ObstacleMotion> now = motion_of(obstacle);
+    if (!now) return std::nullopt;
+    return ObstaclePath{now->pose, now->velocity, now->angular_velocity};
   }
 
   void advance(double dt, std::span<const Contact> contacts, std::span<const HingePull> pulls) override {
@@ -52,6 +45,19 @@ class Swaying final : public MovingStructure {
   }
 
  private:
+  [[nodiscard]] std::optional<ObstacleMotion> motion_of(ObstacleId obstacle) const {
+    const auto found = held_.find(obstacle.value);
+    if (!sways || found == held_.end() || obstacle.value % 3 == 0) return std::nullopt;
+    const Held& held = found->second;
+    ObstacleMotion motion;
+    motion.pose = held.home;
+    motion.pose.position += held.way + Vec3(amplitude * std::sin(rate * time_), 0, 0);
+    motion.velocity = held.speed + Vec3(amplitude * rate * std::cos(rate * time_), 0, 0);
+    motion.acceleration = held.acceleration - Vec3(amplitude * rate * rate * std::sin(rate * time_), 0, 0);
+    motion.mass = mass / 2;
+    motion.inertia = mass * Mat3::Identity();
+    return motion;
+  }
   static constexpr double mass = 3000, amplitude = 0.02, rate = 6, stiffness = 400;  // kg, m, 1/s, 1/s2
   struct Held {
     Pose home;

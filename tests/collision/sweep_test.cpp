@@ -169,7 +169,7 @@ TEST_CASE("a sweep for obstacles finds those alone, as the full sweep does") {
   ball.velocity = Vec3(30, 0, -20);
   world->add_body(ball);
   world->add_body(box_body({0.2, 0.2, 0.2}, 100, {0, 0.7, 0.45}));
-  const std::vector<Contact> all = world->sweep(kStep), standing = world->sweep(kStep, Sweep::obstacles);
+  const std::vector<Contact> all = world->sweep(kStep), standing = world->sweep(kStep, {Sweep::obstacles});
   REQUIRE(standing.size() == 1);
   CHECK(all.size() > 1);
   const auto same =
@@ -192,7 +192,7 @@ TEST_CASE("a sweep with a least speed leaves out bodies that close slowly, and n
   BodyDescription spinning = box_body({1, 0.1, 0.1}, 100, {5, 0, 0.5});
   spinning.angular_velocity = Vec3(0, 30, 0);  // its centre falls slowly, its end strikes the ground
   const BodyId turns = world->add_body(spinning);
-  const std::vector<Contact> all = world->sweep(kStep), quick = world->sweep(kStep, Sweep::everything, 2.0);
+  const std::vector<Contact> all = world->sweep(kStep), quick = world->sweep(kStep, {.least_speed = 2.0});
   std::vector<Contact> expected;
   for (const Contact& contact : all)
     if (contact.approach_speed >= 2) expected.push_back(contact);
@@ -235,7 +235,7 @@ TEST_CASE("a sweep among some bodies leaves out what none of them has a part in,
     std::vector<BodyId> among;
     for (std::size_t i = 0; i < bodies.size(); ++i)
       if ((subset >> i & 1) != 0) among.push_back(bodies[i]);
-    const std::vector<Contact> found = world->sweep(kStep, Sweep::everything, 0, among);
+    const std::vector<Contact> found = world->sweep(kStep, {.among = among});
     std::vector<Contact> expected;
     for (const Contact& contact : all)
       if (contact.other.kind == Touched::Kind::obstacle || has(among, contact.body) ||

@@ -60,8 +60,7 @@ class BallisticWorld : public collision::World {
   [[nodiscard]] std::span<const collision::BodyId> bodies() const override { return order_; }
   [[nodiscard]] std::size_t awake_count() const override { return bodies_.size(); }
 
-  std::vector<collision::Contact> sweep(double dt, collision::Sweep, double,
-                                        std::optional<std::span<const collision::BodyId>>) override {
+  std::vector<collision::Contact> sweep(double dt, const collision::SweepOptions&) override {
     ++sweeps;
     std::vector<collision::Contact> found;
     for (const auto& [id, body] : bodies_)

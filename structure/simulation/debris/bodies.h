@@ -59,6 +59,8 @@ class Bodies {
   [[nodiscard]] iterator find(std::int64_t id) { return all_.find(id); }
   [[nodiscard]] bool contains(std::int64_t id) const { return all_.contains(id); }
   [[nodiscard]] std::size_t size() const { return all_.size(); }
+  /// Its id, which no body had before; -1 while there is none.
+  [[nodiscard]] std::int64_t newest() const { return all_.empty() ? -1 : all_.rbegin()->first; }
   /// Throws std::out_of_range for one that is not there.
   [[nodiscard]] Body& at(std::int64_t id) { return all_.at(id); }
   [[nodiscard]] const Body& at(std::int64_t id) const { return all_.at(id); }

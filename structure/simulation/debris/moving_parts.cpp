@@ -43,6 +43,14 @@ std::optional<collision::ObstacleMotion> MovingParts::motion(collision::Obstacle
   return motion;
 }
 
+std::optional<collision::ObstaclePath> MovingParts::path(collision::ObstacleId id) const {
+  const Part part = debris_.obstacles.part_of(id);
+  if (!part.valid()) return std::nullopt;  // a place that hinges hold to: nothing touches it
+  const std::optional<PartMotion> now = velocity(id);
+  if (!now) return std::nullopt;
+  return collision::ObstaclePath{debris_.obstacles.pose(part, *debris_.scene.frame), now->moved, now->turned};
+}
+
 /// Those that push what moves, with the part's velocity.
 std::vector<PartingContact> MovingParts::may_part(std::span<const collision::Contact> contacts) const {
   std::vector<PartingContact> found;

@@ -24,6 +24,7 @@ class MovingParts final : public collision::MovingStructure {
       : debris_(debris), hinges_(hinges), sums_(sums), substep_(std::move(substep)) {}
 
   [[nodiscard]] std::optional<collision::ObstacleMotion> motion(collision::ObstacleId obstacle) override;
+  [[nodiscard]] std::optional<collision::ObstaclePath> path(collision::ObstacleId obstacle) const override;
   void advance(double dt, std::span<const collision::Contact> contacts,
                std::span<const collision::HingePull> pulls) override;
 

@@ -55,6 +55,10 @@ void Obstacles::put(std::size_t number, collision::World& world) const {
 
 collision::Pose Obstacles::pose_of(Part part, const PartMotion& shift) const { return moved_pose(middle(part), shift); }
 
+collision::Pose Obstacles::pose(Part part, const StandingFrame& frame) const {
+  return pose_of(part, rigid_displacement(frame, part, middle(part)));
+}
+
 collision::Pose Obstacles::carry(Part part, const StandingFrame& frame) {
   PartMotion& shift = shifted_[static_cast<std::size_t>(part_number(building_, part))];
   shift = rigid_displacement(frame, part, middle(part));

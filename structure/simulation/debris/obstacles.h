@@ -24,7 +24,9 @@ class Obstacles {
   /// Shapes of parts that have moved go after them, once they are off by DebrisSettings::follow; to be called when what
   /// stands has moved.
   void follow(const StandingFrame& frame, collision::World& world);
-  /// Where the part is now; the collision world takes its shape there by itself.
+  /// Where the part is now.
+  [[nodiscard]] collision::Pose pose(Part part, const StandingFrame& frame) const;
+  /// The same; the collision world takes its shape there by itself.
   [[nodiscard]] collision::Pose carry(Part part, const StandingFrame& frame);
   /// Of a part's bounds, undeformed: its shape turns about it.
   [[nodiscard]] Vec3 middle(Part part) const;

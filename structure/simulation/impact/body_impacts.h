@@ -43,14 +43,16 @@ class BodyImpacts {
  private:
   [[nodiscard]] std::optional<collision::Contact> contact_now(const collision::Contact& swept) const;
   void strike(const std::vector<collision::Contact>& contacts);
-  void push(BodyImpact& impact);
+  [[nodiscard]] BodyImpact impact_of(const std::vector<collision::Contact>& contacts) const;
+  [[nodiscard]] bool choose_places(BodyImpact& impact);
+  [[nodiscard]] bool push(BodyImpact& impact, double restitution, std::optional<std::size_t>& told);
   [[nodiscard]] ImpactSide side_at(collision::BodyId id, double time) const;
   [[nodiscard]] double time_since_state(collision::BodyId id, double swept_at) const;
   [[nodiscard]] ImpactSide side_again(const ImpactSide& side, collision::BodyId id) const;
   void set_side(const ImpactSide& side);
   void find_flexibility(ImpactSide& side, const std::vector<ImpactPlace>& places, double sign);
   void find_held(ImpactSide& side, const std::vector<ImpactPlace>& places);
-  void leave_with_restitution(BodyImpact& impact, const YieldingPush& yielding);
+  void leave_with_restitution(BodyImpact& impact, const YieldingPush& yielding, double restitution);
   void account_turns_of(const std::vector<JointBreak>& broken, const YieldingPush& yielding);
   void keep_turns(const YieldingPush& yielding);
   void account_turns(std::vector<StandingFrame::ImpactTurn> turns, const YieldingPush& yielding);

@@ -116,7 +116,7 @@ std::optional<Strike> StandingImpacts::aim(const collision::Contact& contact) {
 
   const Vec3 r = contact.point - hit.state.pose.position;
   hit.speed = (hit.state.velocity + hit.state.angular_velocity.cross(r)).dot(hit.normal);
-  if (hit.speed <= 0) return std::nullopt;
+  if (hit.speed <= 0 && !scene_.sways()) return std::nullopt;  // what moves may come upon it
   const Mat3 inverse = world_inertia(*hitting, hit.state.pose.orientation).inverse();
   hit.mass = effective_mass(hitting->rest.mass, inverse, r, hit.normal);
   return hit;

@@ -3,9 +3,14 @@
 #include <vector>
 
 #include "simulation/debris/body.h"
+#include "simulation/impact/impact_settings.h"
 #include "topple/structure/standing_frame.h"
 
 namespace topple::structure {
+
+[[nodiscard]] inline bool strikes(const collision::Contact& contact) {
+  return contact.approach_speed >= impact_settings.least_speed;
+}
 
 struct Strike {
   Body* body = nullptr;

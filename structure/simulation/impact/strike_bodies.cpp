@@ -8,7 +8,10 @@
 // What stands and moves is struck where it is: the part that is hit gives way between its nodes, and these nodes move
 // by modes while all others are held, so that a joint bears what the push brings to it in the time that it lasts.
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 #include "model/index_of.h"
 #include "simulation/debris/momentum.h"
@@ -21,6 +24,17 @@ namespace {
 
 /// A joint that bears so much less than it can, relative to that, has not come to it by rounding.
 constexpr double rounding = 1e-9;
+
+/// The fastest first, those that are alike as they are: of places that move as one the first is kept.
+std::vector<int> by_closing_speed(const Eigen::VectorXd& closing) {
+  constexpr double alike = 1e-6;
+  const double unit = alike * closing.cwiseAbs().maxCoeff();
+  std::vector<int> order(static_cast<std::size_t>(closing.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return std::round(closing(a) / unit) > std::round(closing(b) / unit); });
+  return order;
+}
 
 }  // namespace
 
@@ -55,7 +69,7 @@ std::optional<collision::Contact> BodyImpacts::contact_now(const collision::Cont
 void BodyImpacts::strike_all(const std::vector<collision::Contact>& contacts) {
   std::vector<char> done(contacts.size(), 0);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (done[i] != 0 || contacts[i].approach_speed < impact_settings.least_speed) continue;
+    if (done[i] != 0 || !strikes(contacts[i])) continue;
     const std::optional<collision::Contact> first = contact_now(contacts[i]);
     if (!first) continue;
     const bool two = first->other.kind == collision::Touched::Kind::body;
@@ -104,7 +118,27 @@ std::vector<StruckJoint> BodyImpacts::struck_joints(const BodyImpact& impact, co
   return joints;
 }
 
+/// Again while places that it left out close, as those of a part do that comes down on one edge and then on the other.
+/// What comes back does so the first time.
 void BodyImpacts::strike(const std::vector<collision::Contact>& contacts) {
+  std::optional<std::size_t> told;  // which event tells of it: on what moves always, else once something broke
+  double restitution = scene_.scenario.impact.restitution;
+  std::vector<collision::Contact> together = contacts;
+  while (!together.empty()) {
+    BodyImpact impact = impact_of(together);
+    if (impact.places.empty() || !push(impact, restitution, told)) return;
+    restitution = 0;
+    // What broke in it left pieces; those of the first place go on.
+    const std::vector<collision::Contact> before = std::exchange(together, {});
+    for (const collision::Contact& contact : before)
+      if (const std::optional<collision::Contact> now = contact_now(contact);
+          now &&
+          (together.empty() || (now->body == together.front().body && now->other.body == together.front().other.body)))
+        together.push_back(*now);
+  }
+}
+
+BodyImpact BodyImpacts::impact_of(const std::vector<collision::Contact>& contacts) const {
   const collision::Contact& first = contacts.front();
   const bool two = first.other.kind == collision::Touched::Kind::body;
   BodyImpact impact;
@@ -114,7 +148,7 @@ void BodyImpacts::strike(const std::vector<collision::Contact>& contacts) {
     impact.sides[1].standing = debris_.obstacles.part_of(first.other.obstacle);
     impact.sides[1].held = scene_.sways();
     if (!scene_.sways() && (!impact.sides[1].standing.valid() || !scene_.stands(impact.sides[1].standing)))
-      return;  // it broke there
+      return impact;  // it broke there
   }
   for (const collision::Contact& contact : contacts) {
     const Part struck_part = impact.sides[1].held ? debris_.obstacles.part_of(contact.other.obstacle) : Part();
@@ -128,20 +162,31 @@ void BodyImpacts::strike(const std::vector<collision::Contact>& contacts) {
       impact.sides[1].tags.push_back(two ? contact.other.part_tag : tag);
     }
   }
-  if (!impact.places.empty()) push(impact);
+  return impact;
 }
 
-void BodyImpacts::push(BodyImpact& impact) {
-  const Eigen::VectorXd own = closing_speeds(impact.sides[0].motion, impact.sides[1].motion, impact.places);
-  if (!(own.maxCoeff() >= impact_settings.least_speed) || !prepare_push(impact)) return;
-  if (!(impact.closing().maxCoeff() >= impact_settings.least_speed)) return;  // what stands makes way
+/// Of the places those that push, the fastest first; false: nothing closes, or nothing gives way.
+bool BodyImpacts::choose_places(BodyImpact& impact) {
+  const auto closes = [](const Eigen::VectorXd& speeds) { return speeds.maxCoeff() >= impact_settings.least_speed; };
+  // How what stands moves at the places is known with its response.
+  if (!impact.sides[1].held && !closes(closing_speeds(impact.sides[0].motion, impact.sides[1].motion, impact.places)))
+    return false;
+  if (!prepare_push(impact) || !closes(impact.closing())) return false;
+  if (const std::vector<int> order = by_closing_speed(impact.closing()); !std::is_sorted(order.begin(), order.end()))
+    impact.keep(order);
   impact.keep(independent_places(impact.compliance));
   if (begin_push(impact, false).fastest_over_slowest() > impact_settings.most_unlike) impact.keep({0});
+  return true;
+}
+
+/// Whether it left places out which may close still.
+bool BodyImpacts::push(BodyImpact& impact, double restitution, std::optional<std::size_t>& told) {
+  const std::size_t all_places = impact.places.size();
+  if (!choose_places(impact)) return false;
   std::optional<Impact> push = begin_push(impact, true);
   YieldingPush yielding(impact, sums_.ledger.lost_in_impacts);
   const double speed_in = push->closing_speed()(0);
-  std::optional<std::size_t> told;  // which event tells of it: on what moves always, else once something broke
-  if (impact.sides[1].held) told = record(impact, speed_in);
+  if (impact.sides[1].held && !told) told = record(impact, speed_in);
   bool goes_on = true;
   for (;;) {
     const double deepest = deepest_push(impact);
@@ -184,12 +229,15 @@ void BodyImpacts::push(BodyImpact& impact) {
     if (!goes_on) break;
   }
   if (impact.sides[1].held && goes_on) {
-    leave_with_restitution(impact, yielding);
-    SimulationEvent& event = log_[*told];
-    event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
-    event.speed_out = impact.closing()(0);
+    leave_with_restitution(impact, yielding, restitution);
+    if (told) {
+      SimulationEvent& event = log_[*told];
+      event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
+      event.speed_out = impact.closing()(0);
+    }
   }
   keep_turns(yielding);
+  return impact.sides[1].held && goes_on && impact.places.size() < all_places;
 }
 
 /// Whether what moves makes way before these impulses have acted: all at once they would drive the sides apart. In the
@@ -237,11 +285,10 @@ double BodyImpacts::deepest_push(const BodyImpact& impact) const {
 /// Nothing more fails: the impulses after which no place closes, and each that was pushed parts with the scenario's
 /// share of its closing speed (Newton's law of impact for several contacts; Gauss-Seidel over the places).
 /// What hinges took does not come back.
-void BodyImpacts::leave_with_restitution(BodyImpact& impact, const YieldingPush& yielding) {
+void BodyImpacts::leave_with_restitution(BodyImpact& impact, const YieldingPush& yielding, double restitution) {
   constexpr int most_passes = 1000;
   constexpr double settled = 1e-12;
   const Eigen::MatrixXd mobility = impact.mobility_of_both();
-  double restitution = scene_.scenario.impact.restitution;
   if (const double took = yielding.joints.work(yielding.joints.left()); took > 0) {
     const Eigen::VectorXd closing = impact.closing().cwiseMax(0.0);
     const double brought = closing.dot(mobility.completeOrthogonalDecomposition().solve(closing)) / 2;

@@ -142,6 +142,7 @@ void StandingMotion::make_frame(int c, Moving& moving) const {
   options.substep = substep_;
   options.spectral_radius = settings_.spectral_radius;
   options.shortest_impulse = settings_.shortest_impulse;
+  options.beams_vibrate = true;
   options.analysis.threads = from_.threads;
   options.damping = damping;
   options.second_order = from_.second_order;

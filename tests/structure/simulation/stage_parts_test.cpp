@@ -52,14 +52,14 @@ struct Parts : StageParts {
 TEST_CASE("the sweep makes shapes of what a body may reach in the step, and finds when and how fast it touches") {
   const FrameBuilder f = post_and_arm();
   Parts all(f);
-  CHECK(all.sweep.contacts(all.scene.scenario.step).empty());  // nothing is awake
+  CHECK(all.sweep.contacts(all.scene.scenario.step, nullptr).empty());  // nothing is awake
   const double speed = 30, gap = 0.1, radius = 0.2;
   all.ball(Vec3(0, 50, 2), 10, Vec3(0, -speed, 0));
-  CHECK(all.sweep.contacts(all.scene.scenario.step).empty());
+  CHECK(all.sweep.contacts(all.scene.scenario.step, nullptr).empty());
   CHECK(all.debris.obstacles.obstacle_of(Part(MemberId(0u))).value == -1);
   const double face = all.debris.shapes.bounds(Part(MemberId(0u))).high.y();
   const collision::BodyId near = all.ball(Vec3(0, face + radius + gap, 2), 10, Vec3(0, -speed, 0));
-  const std::vector<collision::Contact> found = all.sweep.contacts(all.scene.scenario.step);
+  const std::vector<collision::Contact> found = all.sweep.contacts(all.scene.scenario.step, nullptr);
   REQUIRE(found.size() == 1);
   CHECK(found[0].body.value == near.value);
   CHECK(all.debris.obstacles.part_of(found[0].other.obstacle) == Part(MemberId(0u)));

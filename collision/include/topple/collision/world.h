@@ -102,9 +102,10 @@ struct Contact {
   Touched other;               ///< what it touches
   Vec3 point = Vec3::Zero();   ///< centre of the area of contact (sweep), of its impulses (step); global
   Vec3 normal = Vec3::Zero();  ///< unit, from the body into what it touches
-  double approach_speed =
-      0;            ///< relative speed at the point along the normal, rotation included, positive when closing
-  double time = 0;  ///< sweep: time of impact from now; step: 0
+  /// Relative speed along the normal, rotation included, positive when closing: at the point (step), at the corner that
+  /// closes fastest (sweep).
+  double approach_speed = 0;
+  double time = 0;              ///< sweep: time of impact from now; step: 0
   Vec3 impulse = Vec3::Zero();  ///< step: what the body did to the other during the last step, friction included, N s
   Vec3 moment = Vec3::Zero();   ///< step: the same about the point, N m s. With both, what is told of a body makes up
                                 ///< its change of angular momentum about any point that is fixed in space
@@ -147,6 +148,13 @@ struct ObstacleMotion {
   bool held_anew = false;
 };
 
+/// Where an obstacle that moves is, and how fast. Global axes.
+struct ObstaclePath {
+  Pose pose;                             ///< now
+  Vec3 velocity = Vec3::Zero();          ///< of the pose's position, now, m/s
+  Vec3 angular_velocity = Vec3::Zero();  ///< now, rad/s
+};
+
 /// What a body did to an obstacle by a hinge, in a part of a step.
 struct HingePull {
   HingeId hinge;                ///< whose `holder` it is
@@ -163,11 +171,27 @@ class MovingStructure {
   /// Nothing for an obstacle that stands still. Asked at the start of each part of a step, of those near bodies and
   /// those that hinges hold to.
   [[nodiscard]] virtual std::optional<ObstacleMotion> motion(ObstacleId obstacle) = 0;
+  /// As motion() has it by now; nothing for an obstacle that stands still. Asked in a sweep.
+  [[nodiscard]] virtual std::optional<ObstaclePath> path(ObstacleId obstacle) const = 0;
   /// It moves on by `dt` (s) under what the bodies did to it meanwhile: contacts of this part of the step, not merged,
   /// those of bodies that fell asleep apart; and what awake bodies pulled with on hinges whose holders move (none in
   /// worlds where no holder does). Bodies, obstacles and hinges may come and go in this call; contacts() tells after
   /// the step of those that are gone as well.
   virtual void advance(double dt, std::span<const Contact> contacts, std::span<const HingePull> pulls) = 0;
+};
+
+/// What a sweep is to find.
+struct SweepOptions {
+  /// Sweep::obstacles leaves out bodies and ground, and with them most of the cost when debris lies in a pile.
+  Sweep what = Sweep::everything;
+  /// m/s: pairs of bodies, and bodies and ground, no points of which can close faster may be left out.
+  double least_speed = 0;
+  /// By rising id: pairs of bodies of which none is one of these are left out, as is the ground of others. None given:
+  /// all are swept.
+  std::optional<std::span<const BodyId>> among = {};
+  /// Obstacles that it moves go on from where it has them, with the velocity that they have there; for nullptr all
+  /// stand still where the world has them. It must outlive the call.
+  const MovingStructure* structure = nullptr;
 };
 
 /// Where a ray first hits.
@@ -286,12 +310,9 @@ class World {
 
   /// Contacts that awake bodies make with obstacles, ground or bodies within dt on their ballistic paths, each as if
   /// the others were not there, in order of time, then of body id. One for each pair of parts, the body with the lower
-  /// id first. Those that were there in the last step are flagged persistent. Nothing moves. Sweep::obstacles leaves
-  /// out bodies and ground, and with them most of the cost when debris lies in a pile. So does `least_speed` (m/s):
-  /// pairs of bodies, and bodies and ground, no points of which can close faster within dt may be left out; and
-  /// `among`: those of which none is one of these, by rising id, are left out (none given: all are swept).
-  [[nodiscard]] virtual std::vector<Contact> sweep(double dt, Sweep what = Sweep::everything, double least_speed = 0,
-                                                   std::optional<std::span<const BodyId>> among = {}) = 0;
+  /// id first. Those that were there in the last step are flagged persistent. Nothing moves. An engine that cannot
+  /// step in parts takes obstacles as standing still.
+  [[nodiscard]] virtual std::vector<Contact> sweep(double dt, const SweepOptions& options = {}) = 0;
   /// Integrates awake bodies by dt > 0 (one internal step, semi-implicit Euler; rotation keeps angular momentum).
   virtual void step(double dt) = 0;
   /// The same in `parts` equal parts, after each of which the structure moves on: obstacles that move touch bodies with

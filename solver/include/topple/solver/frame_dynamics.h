@@ -37,6 +37,10 @@ struct DynamicOptions {
   /// s. An impulse acts over a substep, and over no less than this: by (M + duration a1 K)^-1, as damping takes what it
   /// sets going within that time. With substeps below it what an impulse leaves does not hang on them.
   double shortest_impulse = 0;
+  /// Joints feel what changes of the loads on their beam as the mean over 1/w, w being the first angular frequency of
+  /// the beam with its ends held, by its density and for each component of the end forces. Nodes and energy have loads
+  /// as they act. false: at once, whole, however short a push is.
+  bool beams_vibrate = false;
   /// Axial forces act on the beams as they lie at the moment: end forces are those of the displaced beam, and the work
   /// of the geometric forces counts as external.
   bool second_order = false;
