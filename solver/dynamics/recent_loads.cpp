@@ -43,6 +43,9 @@ Vec6 times_to_feel(const Beam& beam) {
 void RecentLoads::change(int beam, const Held& held, const std::vector<BeamLoad>& from, const std::vector<BeamLoad>& to,
                          double h) {
   if (times_.empty()) return;
+  const double longest = times_[static_cast<std::size_t>(beam)].maxCoeff();
+  auto found = histories_.find(beam);
+  if (found == histories_.end() && !(h < longest)) return;
   const CondensedBeam condensed(held.beam, held.factor);
   const auto stretch = [&](double duration, std::vector<BeamLoad> loads) {
     std::erase_if(loads, [](const BeamLoad& one) { return one.kind == BeamLoad::Kind::temperature; });
@@ -50,10 +53,7 @@ void RecentLoads::change(int beam, const Held& held, const std::vector<BeamLoad>
     made.fixed_end = condensed.fixed_end_forces(made.pushes).force;
     return made;
   };
-  const double longest = times_[static_cast<std::size_t>(beam)].maxCoeff();
-  auto found = histories_.find(beam);
   if (found == histories_.end()) {
-    if (!(h < longest)) return;
     const Stretch before = stretch(longest + h, from);
     found = histories_.emplace(beam, History{before, before}).first;
   }

@@ -230,11 +230,9 @@ bool BodyImpacts::push(BodyImpact& impact, double restitution, std::optional<std
   }
   if (impact.sides[1].held && goes_on) {
     leave_with_restitution(impact, yielding, restitution);
-    if (told) {
-      SimulationEvent& event = log_[*told];
-      event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
-      event.speed_out = impact.closing()(0);
-    }
+    SimulationEvent& event = log_[*told];
+    event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
+    event.speed_out = impact.closing()(0);
   }
   keep_turns(yielding);
   return impact.sides[1].held && goes_on && impact.places.size() < all_places;
