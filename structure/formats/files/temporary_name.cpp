@@ -103,6 +103,10 @@ TemporaryName::Making::Making() noexcept {
   for (const int signal : ending_signals) sigaddset(&held, signal);
   ::pthread_sigmask(SIG_BLOCK, &held, &before_);
   ++making;
+  if (!ending) return;
+  // The handler has looked, or is looking, through the names: it would not know this one.
+  --making;
+  for (;;) ::pause();  // until the signal ends the program
 }
 
 TemporaryName::Making::~Making() {

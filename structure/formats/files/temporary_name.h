@@ -28,7 +28,8 @@ class TemporaryName {
   struct Slot;
 
  private:
-  /// This thread is not asked to handle the signals, and another one that handles them waits.
+  /// This thread is not asked to handle the signals, and another one that handles them waits. Once one does, nothing
+  /// more is made: this waits for the end.
   class Making {
    public:
     Making() noexcept;

@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <string>
 #include <thread>
 
 #include "support/scratch_folder.h"
@@ -64,4 +65,41 @@ TEST_CASE("an interrupt that another thread handles waits until what is being ma
           ::usleep(50'000);
         }) == SIGINT);
   CHECK_FALSE(std::filesystem::exists(path));
+}
+
+TEST_CASE("an interrupt leaves no file of a thread that makes one after another") {
+  const ScratchFolder folder;
+  for (int trial = 0; trial < 40; ++trial) {
+    const auto making_files = [&] {
+      for (int i = 0;; ++i) {
+        const auto path = folder / std::to_string(i);
+        TemporaryName name(path);
+        name.make([&] {
+          const int made = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0600);
+          ::close(made);
+          return made >= 0;
+        });
+        ::unlink(path.c_str());
+      }
+    };
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      std::signal(SIGINT, SIG_DFL);  // the test's own handler
+      remove_temporaries_on_signals();
+      sigset_t interrupt;
+      sigemptyset(&interrupt);
+      sigaddset(&interrupt, SIGINT);
+      ::pthread_sigmask(SIG_BLOCK, &interrupt, nullptr);
+      std::thread(making_files).detach();  // never handles it itself
+      ::pthread_sigmask(SIG_UNBLOCK, &interrupt, nullptr);
+      ::usleep(2'000);
+      (void)::raise(SIGINT);
+      ::_exit(0);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK((WIFSIGNALED(status) && WTERMSIG(status) == SIGINT));
+    CHECK(std::filesystem::is_empty(folder.path()));
+  }
 }
