@@ -148,7 +148,9 @@ void BulletWorld::sweep_movers(const std::vector<Mover>& movers, const SweepRang
 std::vector<Contact> BulletWorld::sweep(double dt, const SweepOptions& options) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("sweep of " + std::to_string(dt) + " s; it must be above zero");
-  const auto& [what, least_speed, among, structure] = options;
+  const Sweep what = options.what;
+  const double least_speed = options.least_speed;
+  const auto& among = options.among;
   release_separated(dt);
   std::vector<Contact> found;
   if (what == Sweep::obstacles && obstacles_.empty()) return found;
@@ -159,7 +161,7 @@ std::vector<Contact> BulletWorld::sweep(double dt, const SweepOptions& options) 
     for (const Mover& mover : awake) sweep_ground(mover, dt, least_speed, found);
     sweep_movers(awake, range, found);
   }
-  const auto asked = [&, among = among](BodyId id) {
+  const auto asked = [&](BodyId id) {
     return std::binary_search(among->begin(), among->end(), id, [](BodyId a, BodyId b) { return a.value < b.value; });
   };
   if (among)

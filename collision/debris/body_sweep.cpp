@@ -132,7 +132,7 @@ void find_touches(const Mover& mover, const Met& met, double dt, double least_sp
 /// Awake bodies against what stands, what sleeps, the ground and each other.
 class BodySweep {
  public:
-  BodySweep(const DebrisScene& scene, const IgnoredPairs& ignored, const SweepRange& range);
+  BodySweep(const DebrisScene& scene, const IgnoredPairs& ignored, double dt, const SweepOptions& options);
   [[nodiscard]] std::vector<Mover> movers() const;
   void sweep_ground(const Mover& mover, std::vector<Contact>& found) const;
   void sweep_standing(const Mover& mover, std::vector<Contact>& found);
@@ -152,8 +152,8 @@ class BodySweep {
   double obstacles_go_ = 0;  ///< m: how far one may be within the time from where its bounds are
 };
 
-BodySweep::BodySweep(const DebrisScene& scene, const IgnoredPairs& ignored, const SweepRange& range)
-    : scene_(scene), ignored_(ignored), dt_(range.dt), options_(range.options) {
+BodySweep::BodySweep(const DebrisScene& scene, const IgnoredPairs& ignored, double dt, const SweepOptions& options)
+    : scene_(scene), ignored_(ignored), dt_(dt), options_(options) {
   // The world has them where they were a part of a step ago; those that come near only now may be faster than it knows.
   if (options_.structure) {
     obstacles_go_ = scene_.settings.fat;
@@ -261,8 +261,7 @@ bool still_to_pass(const DebrisScene& scene, const DebrisBody& first, const Soli
   Motion other_motion;
   other_motion.start = transform_of(other);
   if (other_moves) other_motion = motion_of(static_cast<const DebrisBody&>(other), scene.gravity, dt);
-  if (const ObstacleMotion* moved = motion_in_world(other))
-    other_motion = straight_on(other, {moved->pose, moved->velocity, moved->angular_velocity});
+  if (const ObstacleMotion* moved = motion_in_world(other)) other_motion = straight_on(other, moved->path());
   const double resting_speed = 2 * scene.gravity.norm() * dt;
   std::vector<Contact> found;
   find_touches(mover_of(first, motion_of(first, scene.gravity, dt), ahead),
@@ -271,12 +270,13 @@ bool still_to_pass(const DebrisScene& scene, const DebrisBody& first, const Soli
                      [&](const Contact& contact) { return contact.approach_speed > resting_speed; });
 }
 
-std::vector<Contact> first_touches(const DebrisScene& scene, const IgnoredPairs& ignored, const SweepRange& range) {
-  BodySweep sweep(scene, ignored, range);
+std::vector<Contact> first_touches(const DebrisScene& scene, const IgnoredPairs& ignored, double dt,
+                                   const SweepOptions& options) {
+  BodySweep sweep(scene, ignored, dt, options);
   std::vector<Contact> found;
   const std::vector<Mover> awake = sweep.movers();
   for (const Mover& mover : awake) sweep.sweep_standing(mover, found);
-  if (range.options.what == Sweep::everything) {
+  if (options.what == Sweep::everything) {
     for (const Mover& mover : awake) sweep.sweep_ground(mover, found);
     sweep.sweep_movers(awake, found);
   }

@@ -14,12 +14,8 @@ namespace topple::collision {
 [[nodiscard]] bool still_to_pass(const DebrisScene& scene, const DebrisBody& first, const Solid& other,
                                  bool other_moves, double dt);
 
-struct SweepRange {
-  double dt;  ///< s
-  const SweepOptions& options;
-};
-/// First touches within `range.dt`, each pair of parts once, the body with the lower id first. In no order.
-[[nodiscard]] std::vector<Contact> first_touches(const DebrisScene& scene, const IgnoredPairs& ignored,
-                                                 const SweepRange& range);
+/// First touches within `dt`, each pair of parts once, the body with the lower id first. In no order.
+[[nodiscard]] std::vector<Contact> first_touches(const DebrisScene& scene, const IgnoredPairs& ignored, double dt,
+                                                 const SweepOptions& options);
 
 }  // namespace topple::collision

@@ -233,7 +233,7 @@ std::vector<Contact> DebrisWorld::sweep(double dt, const SweepOptions& options) 
   if (!stepping_) ignored_.release(dt, false);  // what was told to pass does so for a whole step
   std::vector<Contact> found;
   if (options.what == Sweep::obstacles && scene_.obstacles.empty()) return found;
-  found = first_touches(scene_, ignored_, {dt, options});
+  found = first_touches(scene_, ignored_, dt, options);
   report_.mark_persistent(found);
   std::sort(found.begin(), found.end(), [](const Contact& a, const Contact& b) {
     if (a.time != b.time) return a.time < b.time;

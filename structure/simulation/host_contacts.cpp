@@ -56,7 +56,8 @@ void HostContacts::strike(const HostContact& contact, Part part, HostImpulse& fe
   };
   const Body& striking = to_.debris.bodies.at(id.value);
   const Kinetic before = kinetic_energy(striking, to_.scene.world->state(id), to_.scene.reading());
-  to_.scene.sways() ? to_.body_impacts.strike_all({touch}) : to_.standing_impacts.strike_all({touch});
+  to_.scene.sways() ? to_.body_impacts.strike_all({touch}, to_.scene.scenario.step / to_.scene.frame->substeps())
+                    : to_.standing_impacts.strike_all({touch});
   const collision::BodyState after = now();
   const Kinetic left = kinetic_energy(striking, to_.scene.world->state(id), to_.scene.reading());
   to_.sums.body_work_put_in += before.translation + before.rotation - left.translation - left.rotation;

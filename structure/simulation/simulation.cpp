@@ -30,7 +30,7 @@ void Simulation::step() {
     const std::int64_t newest = s.debris.bodies.newest();
     timed(Stage::break_, [&] {
       s.hosts.strike_all();
-      s.strike(contacts);
+      s.strike(contacts, s.in_substeps ? s.first_substep() : s.scene.scenario.step);
       s.scene.sways() ? s.begin_motion() : s.break_generations();
     });
     timed(Stage::release, [&] {
@@ -66,21 +66,19 @@ std::vector<collision::Contact> Simulation::State::sweep_step() {
   bodies.start_step();
   const double dt = scene.scenario.step;
   std::vector<collision::Contact> contacts = sweep_bodies(dt);
+  if (!scene.sways() || !scene.world->steps_in_parts()) return contacts;
+  const double first = first_substep();
   in_substeps =
-      scene.sways() && scene.world->steps_in_parts() &&
-      (scene.frame->in_motion() || std::any_of(contacts.begin(), contacts.end(), [](const collision::Contact& contact) {
-         return contact.other.kind == collision::Touched::Kind::obstacle && strikes(contact);
-       }));
-  if (in_substeps) {
-    const double first = dt / scene.frame->substeps();
-    std::erase_if(contacts, [&](const collision::Contact& contact) { return contact.time > first; });
-  }
+      scene.frame->in_motion() || std::any_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
+        return contact.other.kind == collision::Touched::Kind::obstacle && body_impacts.comes_hard(contact, first);
+      });
+  if (in_substeps) std::erase_if(contacts, [&](const collision::Contact& contact) { return contact.time > first; });
   return contacts;
 }
 
-void Simulation::State::strike(const std::vector<collision::Contact>& contacts) {
+void Simulation::State::strike(const std::vector<collision::Contact>& contacts, double dt) {
   standing_impacts.strike_all(contacts);
-  body_impacts.strike_all(contacts);
+  body_impacts.strike_all(contacts, dt);
 }
 
 void Simulation::State::load() {
@@ -139,10 +137,11 @@ void Simulation::State::strike_between(double dt) {
 /// What an impact lets go is beside something from the beginning, and may come upon that before it has moved: it is
 /// swept and strikes at once, until nothing more is let go.
 void Simulation::State::strike_on(std::vector<collision::Contact> contacts, double dt) {
-  while (std::any_of(contacts.begin(), contacts.end(), strikes)) {
+  const auto hard = [&](const collision::Contact& contact) { return body_impacts.comes_hard(contact, dt); };
+  while (std::any_of(contacts.begin(), contacts.end(), hard)) {
     const std::int64_t newest = debris.bodies.newest();
     scene.frame->read_demands();
-    strike(contacts);
+    strike(contacts, dt);
     record(scene.frame->extract_breaks());
     release.release();
     if (debris.bodies.newest() == newest) return;
@@ -153,8 +152,7 @@ void Simulation::State::strike_on(std::vector<collision::Contact> contacts, doub
 /// What tools and impacts let go as the step began: as strike_on(), in the first substep.
 void Simulation::State::strike_released(std::int64_t newest) {
   if (!scene.sways() || !scene.world->steps_in_parts() || debris.bodies.newest() == newest) return;
-  const double first = scene.scenario.step / scene.frame->substeps();
-  strike_on(sweep_bodies(first), first);
+  strike_on(sweep_bodies(first_substep()), first_substep());
 }
 
 void Simulation::State::end_motion() {

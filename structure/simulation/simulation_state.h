@@ -19,7 +19,8 @@ struct Simulation::State : StageParts {
   [[nodiscard]] std::vector<collision::Contact> sweep_bodies(double dt);
   /// Resting contacts load the frame.
   void load();
-  void strike(const std::vector<collision::Contact>& contacts);
+  /// What meets in the next `dt`.
+  void strike(const std::vector<collision::Contact>& contacts, double dt);
   void break_generations();
   void begin_motion();
   void substep();
@@ -32,6 +33,9 @@ struct Simulation::State : StageParts {
   void record(const std::vector<JointBreak>& breaks);
 
   std::unique_ptr<MovingParts> moving_parts;
+  /// s
+  [[nodiscard]] double first_substep() const { return scene.scenario.step / scene.frame->substeps(); }
+
   // Of the step that runs.
   bool in_substeps = false;  ///< what stands moves, or is struck
   int substeps_left = 0;

@@ -71,7 +71,7 @@ TEST_CASE("debris: two that are to be ignored are no contact, nor swept for, unt
   DebrisBody& other = boxes.add({0.9, 0, 0});
   boxes.ignored.add({0}, body_touched(1));
   CHECK(boxes.find(0.01) == 0);
-  CHECK(first_touches(boxes.scene, boxes.ignored, {0.01, {}}).empty());
+  CHECK(first_touches(boxes.scene, boxes.ignored, 0.01, {}).empty());
   boxes.ignored.release(0.01, false);
   CHECK(boxes.ignored.any());
   other.at.position.x() = 1.1;
@@ -89,7 +89,7 @@ TEST_CASE("debris: a first touch comes at gap over speed") {
   Boxes boxes;
   boxes.add({0, 0, 0});
   boxes.add({3, 0.1, 0}, {-10, 0, 0});
-  const std::vector<Contact> found = first_touches(boxes.scene, boxes.ignored, {0.25, {}});
+  const std::vector<Contact> found = first_touches(boxes.scene, boxes.ignored, 0.25, {});
   REQUIRE(found.size() == 1);
   CHECK(found[0].body.value == 0);
   // By the search's skin earlier than the 2 m between them take.

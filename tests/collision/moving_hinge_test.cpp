@@ -23,10 +23,7 @@ class Mount final : public MovingStructure {
   Vec3 impulse = Vec3::Zero(), moment = Vec3::Zero();  ///< of hinges so far, the moment about where it began
   double work = 0;                                     ///< of hinges
 
-  [[nodiscard]] std::optional<ObstaclePath> path(ObstacleId) const override {
-    const ObstacleMotion now = motion_now();
-    return ObstaclePath{now.pose, now.velocity, now.angular_velocity};
-  }
+  [[nodiscard]] std::optional<ObstaclePath> path(ObstacleId) const override { return motion_now().path(); }
   [[nodiscard]] std::optional<ObstacleMotion> motion(ObstacleId) override { return motion_now(); }
   [[nodiscard]] ObstacleMotion motion_now() const {
     ObstacleMotion motion;

@@ -25,8 +25,7 @@ class Platform final : public MovingStructure {
   [[nodiscard]] std::optional<ObstacleMotion> motion(ObstacleId obstacle) override { return motion_of(obstacle); }
   [[nodiscard]] std::optional<ObstaclePath> path(ObstacleId obstacle) const override {
     const std::optional<ObstacleMotion> now = motion_of(obstacle);
-    if (!now) return std::nullopt;
-    return ObstaclePath{now->pose, now->velocity, now->angular_velocity};
+    return now ? std::optional(now->path()) : std::nullopt;
   }
   [[nodiscard]] std::optional<ObstacleMotion> motion_of(ObstacleId obstacle) const {
     if (!moves || obstacle.value != 0) return std::nullopt;  // the first

@@ -20,8 +20,7 @@ class Swaying final : public MovingStructure {
   [[nodiscard]] std::optional<ObstacleMotion> motion(ObstacleId obstacle) override { return motion_of(obstacle); }
   [[nodiscard]] std::optional<ObstaclePath> path(ObstacleId obstacle) const override {
     const std::optional<ObstacleMotion> now = motion_of(obstacle);
-    if (!now) return std::nullopt;
-    return ObstaclePath{now->pose, now->velocity, now->angular_velocity};
+    return now ? std::optional(now->path()) : std::nullopt;
   }
 
   void advance(double dt, std::span<const Contact> contacts, std::span<const HingePull> pulls) override {

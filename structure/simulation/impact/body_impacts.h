@@ -31,8 +31,11 @@ class BodyImpacts {
   };
   explicit BodyImpacts(const Sources& sources);
 
-  /// Contacts of this step that are fast enough and of which something can break, in order of time.
-  void strike_all(const std::vector<collision::Contact>& contacts);
+  /// Contacts of the next `dt` that come hard and of which something can break, in order of time.
+  void strike_all(const std::vector<collision::Contact>& contacts, double dt);
+  /// Whether the law of impact has a contact, rather than the collision world: it is fast, or what stands and moves is
+  /// met by so much momentum that to take it within `dt` might break it.
+  [[nodiscard]] bool comes_hard(const collision::Contact& contact, double dt) const;
 
   /// It has nothing of its own.
   template <class Archive>
@@ -41,11 +44,17 @@ class BodyImpacts {
   }
 
  private:
+  /// One push of an impact that goes on while places close.
+  struct Pass {
+    double least_speed;  ///< m/s, of a place that closes
+    double restitution;
+    double most_unlike;  ///< places by frequency, that are followed together
+  };
   [[nodiscard]] std::optional<collision::Contact> contact_now(const collision::Contact& swept) const;
-  void strike(const std::vector<collision::Contact>& contacts);
+  void strike(const std::vector<collision::Contact>& contacts, double least_speed);
   [[nodiscard]] BodyImpact impact_of(const std::vector<collision::Contact>& contacts) const;
-  [[nodiscard]] bool choose_places(BodyImpact& impact);
-  [[nodiscard]] bool push(BodyImpact& impact, double restitution, std::optional<std::size_t>& told);
+  [[nodiscard]] bool choose_places(BodyImpact& impact, const Pass& pass);
+  [[nodiscard]] bool push(BodyImpact& impact, const Pass& pass, std::optional<std::size_t>& told);
   [[nodiscard]] ImpactSide side_at(collision::BodyId id, double time) const;
   [[nodiscard]] double time_since_state(collision::BodyId id, double swept_at) const;
   [[nodiscard]] ImpactSide side_again(const ImpactSide& side, collision::BodyId id) const;

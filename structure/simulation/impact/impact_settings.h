@@ -10,13 +10,18 @@ struct ImpactSettings {
   /// m/s. What closes slower with what stands lies down on it, new or not: contacts bear it. A body gains it in a fall
   /// of 0.02 mm. Without it, what rests beside a part strikes it at every step by rounding.
   double lies_down = 0.02;
+  /// Of what a part's own joints bear: what closes more slowly than `least_speed`, but with a momentum that contacts
+  /// would take within a substep by a larger force, strikes what moves by the law of impact. Smaller: more is asked of
+  /// the law; it decides nothing as substeps become short.
+  double taken_by_contacts = 0.1;
   /// m. Places that are no farther from touching when the first of them touches, touch with it: collision shapes are no
   /// truer. Larger: more is taken as one impact.
   double touching = 1e-3;
   /// Places that give way alike to this share are one place (a beam and a post hit at their common node).
   double same_place = 1e-6;
   /// A stiff place among soft ones (by their frequencies) is over before these feel anything: they are followed one
-  /// after the other. Larger: more is followed together, at a cost of as many samples.
+  /// after the other, twice as much together each time that some still close. Larger: more is followed together, at a
+  /// cost of as many samples.
   double most_unlike = 30;
   /// m. When a break would move an unloaded place by more, the statics are on their way to a mechanism that the
   /// structure has had no time to reach: the push ends there, and the body keeps the speed it has.
@@ -33,6 +38,10 @@ struct ImpactSettings {
   double largest_depth = 3;
   /// Joints that come this near to failing (relative) fail with the first: symmetric ones differ by rounding only.
   double same_instant = 1e-6;
+  /// s. For so long after they met, at least, what two things do to each other is an impact, of which the law of impact
+  /// has said what it breaks: contacts take its momentum in less, and it presses on no joint. Larger: what lands
+  /// heavily presses later.
+  double landing_time = 0.01;
   /// s. What lies on debris presses on its joints with its force over this time: longer than the contact solver's
   /// chatter, shorter than anything that settles.
   double pressing_time = 0.1;

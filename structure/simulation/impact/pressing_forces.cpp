@@ -17,6 +17,8 @@ constexpr double nothing = 1e-3;
 void PressingForces::gather(const Key& key, const BodyPlace& place, const Vec3& force, const Vec3& point) {
   const Mat3 back = place.pose.orientation.toRotationMatrix().transpose();
   Pressing& own = pressing_[key];
+  own.touches = true;
+  if (own.lasted < impact_settings.landing_time) return;
   const double weight = force.norm();
   own.seen_force += back * force;
   own.seen_point += weight * (place.rest_centre + back * (point - place.pose.position));
@@ -26,7 +28,6 @@ void PressingForces::gather(const Key& key, const BodyPlace& place, const Vec3& 
 void PressingForces::read(std::span<const ContactRecord> contacts, double dt,
                           const std::function<std::optional<BodyPlace>(collision::BodyId)>& place_of) {
   for (const ContactRecord& contact : contacts) {
-    if (!contact.persistent) continue;
     const bool two = contact.other.kind == collision::Touched::Kind::body;
     const std::int64_t other = two ? contact.other.body.value : contact.other.obstacle.value;
     const auto kind = static_cast<std::int64_t>(contact.other.kind);
@@ -49,7 +50,10 @@ void PressingForces::read(std::span<const ContactRecord> contacts, double dt,
       const Vec3 at = own.seen_point / own.seen_weight;
       own.point = first ? at : Vec3(own.point + share * (at - own.point));
     }
-    const bool gone = (own.seen_weight == 0 && own.force.norm() < nothing) || !place_of({entry->first.body});
+    // One that is new may have begun at any time of the step.
+    own.lasted = !own.touches ? apart : own.lasted == apart ? 0 : own.lasted + dt;
+    const bool gone = (!own.touches && own.force.norm() < nothing) || !place_of({entry->first.body});
+    own.touches = false;
     own.seen_force.setZero();
     own.seen_point.setZero();
     own.seen_weight = 0;

@@ -39,10 +39,13 @@ class PressingForces {
     std::int64_t body, part, other_kind, other, other_part;
     auto operator<=>(const Key&) const = default;
   };
+  static constexpr double apart = -1;
   struct Pressing {
     Vec3 force = Vec3::Zero(), point = Vec3::Zero();  ///< axes of the undeformed building
     Vec3 seen_force = Vec3::Zero(), seen_point = Vec3::Zero();
     double seen_weight = 0;
+    double lasted = apart;  ///< s, at least, that they have touched
+    bool touches = false;
   };
   template <class Archive>
   friend void serialize(Archive& archive, Key& key) {
@@ -52,8 +55,8 @@ class PressingForces {
   /// What is seen is of the step that runs.
   template <class Archive>
   friend void serialize(Archive& archive, Pressing& one) {
-    auto& [force, point, seen_force, seen_point, seen_weight] = one;
-    archive(force, point);
+    auto& [force, point, seen_force, seen_point, seen_weight, lasted, touches] = one;
+    archive(force, point, lasted);
   }
   void gather(const Key& key, const BodyPlace& place, const Vec3& force, const Vec3& point);
 

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "model/index_of.h"
+#include "simulation/debris/local_capacity.h"
 #include "simulation/debris/momentum.h"
 #include "simulation/impact/body_impacts.h"
 #include "simulation/impact/impact_settings.h"
@@ -64,12 +65,23 @@ std::optional<collision::Contact> BodyImpacts::contact_now(const collision::Cont
   return contact;
 }
 
+bool BodyImpacts::comes_hard(const collision::Contact& contact, double dt) const {
+  if (strikes(contact)) return true;
+  if (!scene_.sways() || contact.other.kind != collision::Touched::Kind::obstacle ||
+      contact.approach_speed < impact_settings.lies_down || !debris_.bodies.contains(contact.body.value))
+    return false;
+  const Part part = debris_.obstacles.part_of(contact.other.obstacle);
+  if (!part.valid() || !scene_.stands(part)) return false;
+  const double force = debris_.bodies.at(contact.body.value).rest.mass * contact.approach_speed / dt;
+  return force > impact_settings.taken_by_contacts * local_capacity(scene_.building, part, scene_.strength_factors);
+}
+
 /// Those of one pair at one instant, in order of time; pairs of which nothing can break are left to the collision
 /// world. What comes later in the step comes upon the pieces of what broke before.
-void BodyImpacts::strike_all(const std::vector<collision::Contact>& contacts) {
+void BodyImpacts::strike_all(const std::vector<collision::Contact>& contacts, double dt) {
   std::vector<char> done(contacts.size(), 0);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (done[i] != 0 || !strikes(contacts[i])) continue;
+    if (done[i] != 0 || !comes_hard(contacts[i], dt)) continue;
     const std::optional<collision::Contact> first = contact_now(contacts[i]);
     if (!first) continue;
     const bool two = first->other.kind == collision::Touched::Kind::body;
@@ -89,7 +101,7 @@ void BodyImpacts::strike_all(const std::vector<collision::Contact>& contacts) {
       together.push_back(*next);
       done[k] = 1;
     }
-    strike(together);
+    strike(together, strikes(*first) ? impact_settings.least_speed : impact_settings.lies_down);
   }
 }
 
@@ -119,15 +131,16 @@ std::vector<StruckJoint> BodyImpacts::struck_joints(const BodyImpact& impact, co
 }
 
 /// Again while places that it left out close, as those of a part do that comes down on one edge and then on the other.
-/// What comes back does so the first time.
-void BodyImpacts::strike(const std::vector<collision::Contact>& contacts) {
+/// What comes back does so the first time. `least_speed`: of a place that closes.
+void BodyImpacts::strike(const std::vector<collision::Contact>& contacts, double least_speed) {
   std::optional<std::size_t> told;  // which event tells of it: on what moves always, else once something broke
-  double restitution = scene_.scenario.impact.restitution;
+  Pass pass{least_speed, scene_.scenario.impact.restitution, impact_settings.most_unlike};
   std::vector<collision::Contact> together = contacts;
   while (!together.empty()) {
     BodyImpact impact = impact_of(together);
-    if (impact.places.empty() || !push(impact, restitution, told)) return;
-    restitution = 0;
+    if (impact.places.empty() || !push(impact, pass, told)) return;
+    pass.restitution = 0;
+    pass.most_unlike *= 2;  // what is pinched between two would go to and fro
     // What broke in it left pieces; those of the first place go on.
     const std::vector<collision::Contact> before = std::exchange(together, {});
     for (const collision::Contact& contact : before)
@@ -166,8 +179,8 @@ BodyImpact BodyImpacts::impact_of(const std::vector<collision::Contact>& contact
 }
 
 /// Of the places those that push, the fastest first; false: nothing closes, or nothing gives way.
-bool BodyImpacts::choose_places(BodyImpact& impact) {
-  const auto closes = [](const Eigen::VectorXd& speeds) { return speeds.maxCoeff() >= impact_settings.least_speed; };
+bool BodyImpacts::choose_places(BodyImpact& impact, const Pass& pass) {
+  const auto closes = [&](const Eigen::VectorXd& speeds) { return speeds.maxCoeff() >= pass.least_speed; };
   // How what stands moves at the places is known with its response.
   if (!impact.sides[1].held && !closes(closing_speeds(impact.sides[0].motion, impact.sides[1].motion, impact.places)))
     return false;
@@ -175,18 +188,18 @@ bool BodyImpacts::choose_places(BodyImpact& impact) {
   if (const std::vector<int> order = by_closing_speed(impact.closing()); !std::is_sorted(order.begin(), order.end()))
     impact.keep(order);
   impact.keep(independent_places(impact.compliance));
-  if (begin_push(impact, false).fastest_over_slowest() > impact_settings.most_unlike) impact.keep({0});
+  if (begin_push(impact, false).fastest_over_slowest() > pass.most_unlike) impact.keep({0});
   return true;
 }
 
 /// Whether it left places out which may close still.
-bool BodyImpacts::push(BodyImpact& impact, double restitution, std::optional<std::size_t>& told) {
+bool BodyImpacts::push(BodyImpact& impact, const Pass& pass, std::optional<std::size_t>& told) {
   const std::size_t all_places = impact.places.size();
-  if (!choose_places(impact)) return false;
+  if (!choose_places(impact, pass)) return false;
   std::optional<Impact> push = begin_push(impact, true);
   YieldingPush yielding(impact, sums_.ledger.lost_in_impacts);
   const double speed_in = push->closing_speed()(0);
-  if (impact.sides[1].held && !told) told = record(impact, speed_in);
+  if (impact.sides[1].held && !told && speed_in >= impact_settings.least_speed) told = record(impact, speed_in);
   bool goes_on = true;
   for (;;) {
     const double deepest = deepest_push(impact);
@@ -229,10 +242,12 @@ bool BodyImpacts::push(BodyImpact& impact, double restitution, std::optional<std
     if (!goes_on) break;
   }
   if (impact.sides[1].held && goes_on) {
-    leave_with_restitution(impact, yielding, restitution);
-    SimulationEvent& event = log_[*told];
-    event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
-    event.speed_out = impact.closing()(0);
+    leave_with_restitution(impact, yielding, pass.restitution);
+    if (told) {
+      SimulationEvent& event = log_[*told];
+      event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
+      event.speed_out = impact.closing()(0);
+    }
   }
   keep_turns(yielding);
   return impact.sides[1].held && goes_on && impact.places.size() < all_places;

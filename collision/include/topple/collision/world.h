@@ -132,6 +132,13 @@ struct BodyState {
   bool asleep = false;                   ///< nothing is computed for it until something wakes it
 };
 
+/// Where an obstacle that moves is, and how fast. Global axes.
+struct ObstaclePath {
+  Pose pose;                             ///< now
+  Vec3 velocity = Vec3::Zero();          ///< of the pose's position, now, m/s
+  Vec3 angular_velocity = Vec3::Zero();  ///< now, rad/s
+};
+
 /// How an obstacle moves with the structure that it is part of, as a rigid body about its pose's position. Global axes.
 struct ObstacleMotion {
   Pose pose;                             ///< now
@@ -146,13 +153,9 @@ struct ObstacleMotion {
   Mat3 inertia = Mat3::Zero();  ///< as the mass: kg m2, about the pose's position
   /// Held otherwise than in the part of a step before, as something broke: how it gave way then tells nothing.
   bool held_anew = false;
-};
 
-/// Where an obstacle that moves is, and how fast. Global axes.
-struct ObstaclePath {
-  Pose pose;                             ///< now
-  Vec3 velocity = Vec3::Zero();          ///< of the pose's position, now, m/s
-  Vec3 angular_velocity = Vec3::Zero();  ///< now, rad/s
+  /// Where it is, and how fast.
+  [[nodiscard]] ObstaclePath path() const { return {pose, velocity, angular_velocity}; }
 };
 
 /// What a body did to an obstacle by a hinge, in a part of a step.
