@@ -45,9 +45,9 @@ sleep $((6 + (busy < 10 ? 6 * busy : 60)))
 picture hit.png
 # The slider of time (panels: 25 texts of 14 pixels wide, 6.2 high; a picture may take a second without a graphics card) dragged to the beginning; Y returns to the present.
 xdotool mousemove 500 558 mousedown 1
-for x in 300 100 14; do xdotool mousemove "$x" 558; sleep 2; done
+for x in 300 100 14; do xdotool mousemove "$x" 558; sleep $((2 + busy)); done
 xdotool mouseup 1
-sleep 1
+sleep $((1 + busy))
 picture scrubbed.png
 xdotool key y key space
 xdotool mousemove 250 300

@@ -108,7 +108,7 @@ class UsdWriter {
     std::vector<std::size_t> of_, vertex_;  // of each vertex its point, of each point a vertex
   };
   static void add(std::string& text, const glm::vec3& p) {
-    text += print("%s(%.6g, %.6g, %.6g)", text.empty() ? "" : ", ", static_cast<double>(p.x), static_cast<double>(p.y),
+    text += print("%s(%.7g, %.7g, %.7g)", text.empty() ? "" : ", ", static_cast<double>(p.x), static_cast<double>(p.y),
                   static_cast<double>(p.z));
   }
 
