@@ -152,12 +152,17 @@ def pairs(finer, scenario, found, samples, key):
     return [(a[key], b[key]) for a, b in both if a.get(key) is not None and b.get(key) is not None]
 
 
+def as_told(finer, time):
+    """s: events carry the time at which their step begins. Of what happens at one instant, longer steps tell an earlier time."""
+    return math.floor(time * finer.coarse + 1e-6) / finer.coarse if finer is STEPS else time
+
+
 def judge(context, finer, names, members, found, counts, draw):
     """What is asked of every scenario, in words; what is not as it must be goes to context.broken."""
     lines, groups = [], []
     for scenario in names:
         shares = [(a - b) / members[scenario] for a, b in pairs(finer, scenario, found, counts[scenario], "down")]
-        times = pairs(finer, scenario, found, counts[scenario], "half")
+        times = [(a, as_told(finer, b)) for a, b in pairs(finer, scenario, found, counts[scenario], "half")]
         if not shares:
             context.broken.append("%s: no run to compare" % scenario)
             continue

@@ -5,6 +5,7 @@ import io
 import json
 import math
 import os
+import random
 import subprocess
 import sys
 import tempfile
@@ -18,6 +19,7 @@ sys.path.insert(0, os.path.join(ROOT, "benchmarks", "harness"))
 
 import compare  # noqa: E402
 import constants  # noqa: E402
+import convergence  # noqa: E402
 import debris  # noqa: E402
 import labels  # noqa: E402
 import other_peers  # noqa: E402
@@ -259,6 +261,23 @@ class Labels(unittest.TestCase):
         placed = labels.place([("one label", 1.0, 1e-3), ("another", 1.0, 1e-3), ("a third", 1.1, 1e-3)], x_range, y_range)
         heights = sorted(labels.HEIGHT * math.log10(y / y_range[0]) / 18 for _, _, y, _, _ in placed)
         self.assertTrue(all(b - a >= labels.LINE for a, b in zip(heights, heights[1:])), heights)
+
+
+class Convergence(unittest.TestCase):
+    def judged(self, later):
+        """Half of it is down at the same instants, or so much later in the finer steps, told as the step's beginning."""
+        found = {}
+        for k in range(40):
+            for rate, shift in ((60, 0.0), (240, later)):
+                found["house", rate, k] = {"down": 3, "half": math.floor((1.31 + 0.0071 * k + shift) * rate) / rate}
+        one = types.SimpleNamespace(broken=[])
+        lines = convergence.judge(one, convergence.STEPS, ["house"], {"house": 10}, found, {"house": 40}, random.Random(1))
+        self.assertEqual(one.broken, [])
+        return lines[-1]
+
+    def test_times_are_compared_as_the_longer_steps_tell_them(self):
+        self.assertIn("p = 1.000", self.judged(0.0))
+        self.assertIn("MISSED", self.judged(0.02))
 
 
 class Constants(unittest.TestCase):
