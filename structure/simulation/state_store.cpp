@@ -10,11 +10,13 @@
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "simulation/accounts/replay_hash.h"
 #include "simulation/program_mark.h"
 #include "topple/structure/error.h"
+#include "topple/structure/formats/input_files.h"
 #include "topple/structure/formats/output_files.h"
 #include "topple/structure/snapshot.h"
 
@@ -114,13 +116,16 @@ void StateStore::make_room(std::uintmax_t bytes) const {
   };
   std::vector<Kept> kept;
   std::uintmax_t all = bytes;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+  std::error_code unseen;
+  for (const std::string& name : names_in(folder_, unseen)) {
+    fs::path path = folder_ / name;
     std::error_code gone;
-    if (entry.path().extension() != ending || !entry.is_regular_file(gone)) continue;
-    const std::uintmax_t size = entry.file_size(gone);
-    const fs::file_time_type used = entry.last_write_time(gone);
+    if (path.extension() != ending || !fs::is_regular_file(path, gone)) continue;
+    const std::uintmax_t size = fs::file_size(path, gone);
     if (gone) continue;
-    kept.push_back({used, size, entry.path()});
+    const fs::file_time_type used = fs::last_write_time(path, gone);
+    if (gone) continue;
+    kept.push_back({used, size, std::move(path)});
     all += size;
   }
   std::sort(kept.begin(), kept.end(), [](const Kept& a, const Kept& b) { return a.used < b.used; });

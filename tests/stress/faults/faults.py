@@ -74,7 +74,7 @@ class Trial:
         return folder
 
     def run(self, folder, words, faults, before=()):
-        environment = dict(os.environ, **faults)
+        environment = dict(os.environ, XDG_CACHE_HOME=str(folder / "cache"), **faults)  # not the user's own states
         if "FAULT_CALL" in faults:
             environment["LD_PRELOAD"] = str(self.shim)
         return subprocess.run([*map(str, before), str(self.bin_dir / self.program), *words], cwd=folder, env=environment,
