@@ -3,32 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/beam_load_sums.h"
 #include "model/index_of.h"
 #include "model/solved_member.h"
 
 namespace topple::structure {
-
-namespace {
-
-bool same(const std::vector<solver::BeamLoad>& a, const std::vector<solver::BeamLoad>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const solver::BeamLoad& x, const solver::BeamLoad& y) {
-    return x.kind == y.kind && x.from == y.from && x.to == y.to && x.first == y.first && x.last == y.last &&
-           x.strain == y.strain && x.curvature_y == y.curvature_y && x.curvature_z == y.curvature_z;
-  });
-}
-
-void add_scaled(const std::vector<solver::BeamLoad>& loads, double factor, std::vector<solver::BeamLoad>& sum) {
-  for (solver::BeamLoad load : loads) {
-    load.first *= factor;
-    load.last *= factor;
-    load.strain *= factor;
-    load.curvature_y *= factor;
-    load.curvature_z *= factor;
-    sum.push_back(load);
-  }
-}
-
-}  // namespace
 
 DuctileJoints::DuctileJoints(const Building& building, const FrameStatics& statics, const Segmentation& segments,
                              const PanelBearings& bearings, const std::vector<std::vector<solver::BeamLoad>>& applied)
@@ -81,7 +60,7 @@ void DuctileJoints::base_is_answer(int component) {
 std::vector<solver::BeamLoad> DuctileJoints::mixed_loads(MemberId member, double base, double now) const {
   const auto &before = loads_[index_of(member)], &after = applied_[index_of(member)];
   std::vector<solver::BeamLoad> sum;
-  if (same(before, after)) {
+  if (same_loads(before, after)) {
     if (base + now != 0) add_scaled(after, base + now, sum);
     return sum;
   }
@@ -95,7 +74,7 @@ void DuctileJoints::move_base(int component, double part) {
     if (segments_.label(member) < 0) continue;
     solver::Vec12& force = end_forces_[index_of(member)];
     force += part * (statics_.end_forces(member) - force);
-    if (part != 0 && !same(loads_[index_of(member)], applied_[index_of(member)]))
+    if (part != 0 && !same_loads(loads_[index_of(member)], applied_[index_of(member)]))
       loads_[index_of(member)] = mixed_loads(member, 1 - part, part);
   }
   for (NodeId node : statics_.nodes(component)) {

@@ -1,6 +1,7 @@
 // How motion ends: whether it is near to rest, and the energies that it leaves to the accounts.
 #include <algorithm>
 
+#include "model/beam_load_sums.h"
 #include "model/index_of.h"
 #include "standing/beam_as_it_holds.h"
 #include "standing/motion/moving_component.h"
@@ -10,9 +11,10 @@ namespace topple::structure {
 
 namespace {
 
-/// J, on the way to rest, of what loads do between nodes. The strain of members that left went with them. Where a
-/// member holds otherwise by now, its nodes bear other shares of its loads, and these moved between nodes: by the
-/// shares, at the places of the start, and by twice the strain that is there more.
+/// J, on the way to rest, of what loads do between nodes. The strain of members that left went with them. Loads that
+/// came or went at once bent a member between its nodes by themselves, which leaves as much strain as they do work too
+/// much. Where a member holds otherwise by now, its nodes bear other shares of its loads, and these moved between
+/// nodes: by the shares, at the places of the start, and by twice the strain that is there more.
 double freed_between_nodes(const MotionSources& from, int c) {
   const StateOfRest& start = from.account.at_rest();
   double freed = 0;
@@ -25,6 +27,12 @@ double freed_between_nodes(const MotionSources& from, int c) {
     }
     const std::vector<solver::BeamLoad>& loads = from.statics.loads(member);
     const solver::Beam now = beam_as_it_holds(from.statics, from.parts, member);
+    const std::vector<solver::BeamLoad>& were = start.loads(member);
+    if (!same_loads(loads, were)) {
+      std::vector<solver::BeamLoad> more = loads;
+      add_scaled(were, -1, more);
+      freed += solver::held_strain_energy(before, more);
+    }
     if (loads.empty() || (now.end_stiffness == before.end_stiffness && now.youngs_modulus == before.youngs_modulus))
       continue;
     freed += solver::held_strain_energy(now, loads) - solver::held_strain_energy(before, loads);
