@@ -76,12 +76,13 @@ struct DebrisObstacleData {
   int known_for = 0;     ///< parts of a step, at most three
   int solver = -1;       ///< its number in the step's solver; -1: not in it yet
   int island = -1;
+  Mat6 root_mobility = Mat6::Zero();  ///< for the solver, in this part of the step
 };
 /// As a body's.
 template <class Archive>
 void archive_members(Archive& archive, DebrisObstacleData& of) {
   auto& [pose, friction, restitution, colliders, moves, motion, impulse, angular_impulse, force, moment, gives_way,
-         alike, lasting, known_for, solver, island] = of;
+         alike, lasting, known_for, solver, island, root_mobility] = of;
   archive(pose, friction, restitution, colliders, moves, motion, impulse, angular_impulse, force, moment, gives_way,
           alike, lasting, known_for);
 }

@@ -1,11 +1,25 @@
 #include "debris/moving_obstacles.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace topple::collision {
+
+namespace {
+
+/// What a force and a moment about its place do to it: m/s2, rad/s2.
+std::pair<Vec3, Vec3> answer(const ObstacleMotion& motion, const Vec3& force, const Vec3& moment) {
+  if (!motion.mobility) return {force / motion.mass, motion.inertia.inverse() * moment};
+  Eigen::Matrix<double, 6, 1> both;
+  both << force, moment;
+  both = *motion.mobility * both;
+  return {both.head<3>(), both.tail<3>()};
+}
+
+}  // namespace
 
 void MovingObstacles::update(double dt, MovingStructure& structure) {
   std::vector<std::int64_t> near;
@@ -68,9 +82,9 @@ void MovingObstacles::update(DebrisObstacle& one, const ObstacleMotion& motion, 
 /// how much of the force goes on.
 void MovingObstacles::estimate_compliance(DebrisObstacle& one, const ObstacleMotion& now, const Vec3& force,
                                           const Vec3& moment) const {
-  const Mat3 inverse = now.inertia.inverse();
   const auto product = [&](const Vec3& a, const Vec3& turning_a, const Vec3& b, const Vec3& turning_b) {
-    return a.dot(b) / now.mass + turning_a.dot(inverse * turning_b);
+    const auto [moved, turned] = answer(now, b, turning_b);
+    return a.dot(moved) + turning_a.dot(turned);
   };
   const double present = product(force, moment, force, moment),
                before = product(one.force, one.moment, one.force, one.moment);
@@ -82,7 +96,10 @@ void MovingObstacles::estimate_compliance(DebrisObstacle& one, const ObstacleMot
   if (!(own > scene_.settings.telling_change * std::max(before, present))) return;
   const double shown = more.dot(now.acceleration - one.motion.acceleration) +
                        more_moment.dot(now.angular_acceleration - one.motion.angular_acceleration);
-  if (shown > 0) one.gives_way = std::clamp(shown / own, scene_.settings.gives_way_least, 1.0);
+  if (!(shown > 0)) return;
+  // Each direction of a mobility is told by itself: what one shows must not make the others stiffer.
+  const double least = now.mobility ? 1 : scene_.settings.gives_way_least;
+  one.gives_way = std::clamp(shown / own, least, scene_.settings.gives_way_most);
 }
 
 void MovingObstacles::stand_still(DebrisObstacle& one) {
@@ -106,20 +123,26 @@ void MovingObstacles::add_to(StepSolver& solver, const Island& island, double dt
 }
 
 void MovingObstacles::add(DebrisObstacle& one, StepSolver& solver, double dt, double substep) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> principal(one.motion.inertia);
   SolverBody moving;
-  moving.at = {one.pose.position, principal.eigenvectors()};
-  if (moving.at.turn.determinant() < 0) moving.at.turn.col(2) *= -1;
-  moving.inverse_root_mass = std::sqrt(one.gives_way / one.motion.mass);
-  moving.inverse_root_moments = std::sqrt(one.gives_way) * principal.eigenvalues().cwiseSqrt().cwiseInverse();
-  const double by_force = one.gives_way / one.motion.mass;
-  const Vec3 by_moment = moving.at.turn * moving.inverse_root_moments.cwiseProduct(moving.scaled_moment(one.moment));
+  moving.at.position = one.pose.position;
+  if (one.motion.mobility) {
+    one.root_mobility = (one.gives_way * *one.motion.mobility).llt().matrixL();
+    moving.root_mobility = &one.root_mobility;
+    moving.at.turn.setIdentity();
+  } else {
+    const Eigen::SelfAdjointEigenSolver<Mat3> principal(one.motion.inertia);
+    moving.at.turn = principal.eigenvectors();
+    if (moving.at.turn.determinant() < 0) moving.at.turn.col(2) *= -1;
+    moving.inverse_root_mass = std::sqrt(one.gives_way / one.motion.mass);
+    moving.inverse_root_moments = std::sqrt(one.gives_way) * principal.eigenvalues().cwiseSqrt().cwiseInverse();
+  }
+  const auto [moved, turned] = answer(one.motion, one.force, one.moment);
+  const Vec3 by_force = one.gives_way * moved, by_moment = one.gives_way * turned;
   // As it went on, without what touched it then.
-  moving.acceleration = one.motion.acceleration - by_force * one.force;
+  moving.acceleration = one.motion.acceleration - by_force;
   moving.angular_acceleration = one.motion.angular_acceleration - by_moment;
   // The solver begins half a sub-step before the part does; there what lasts acted already.
-  moving.velocity =
-      one.motion.velocity - moving.acceleration * (dt / 2) - one.lasting * by_force * one.force * (substep / 2);
+  moving.velocity = one.motion.velocity - moving.acceleration * (dt / 2) - one.lasting * by_force * (substep / 2);
   moving.spin =
       one.motion.angular_velocity - moving.angular_acceleration * (dt / 2) - one.lasting * by_moment * (substep / 2);
   one.solver = solver.add(moving);

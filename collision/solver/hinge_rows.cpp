@@ -35,10 +35,8 @@ void HingeRows::add_row(const Vec3& along, const Vec3& about, double gap, const 
   along_[static_cast<std::size_t>(row)] = along;
   about_[static_cast<std::size_t>(row)] = about;
   gap_[row] = gap;
-  on_body_.row(row).head<3>() = of.inverse_root_mass * along;
-  on_body_.row(row).tail<3>() = of.scaled_moment(body_arm_.cross(along) + about);
-  on_holder_.row(row).head<3>() = -other.inverse_root_mass * along;
-  on_holder_.row(row).tail<3>() = -other.scaled_moment(holder_arm_.cross(along) + about);
+  on_body_.row(row) = of.row(along, body_arm_.cross(along) + about);
+  on_holder_.row(row) = -other.row(along, holder_arm_.cross(along) + about);
 }
 
 void HingeRows::prepare(const SolverBody& of, const SolverBody& other, const Motion6& body_moved,

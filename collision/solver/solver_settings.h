@@ -48,7 +48,10 @@ struct SolverSettings {
   /// How much a force on it has to change, squared, as a share of it, before its motion tells by how much it gives way:
   /// what else moves it counts as much else. Decides how soon forces on it settle, not on what.
   double telling_change = 0.25;
-  double gives_way_least = 0.02;  ///< of what it would by itself: the least that its motion is taken to tell
+  /// Of what it is taken to give way by at first (ObstacleMotion::mass): the least and the most that its motion may
+  /// tell. The most has to be above what several that act on one light part make of it, or their forces grow from one
+  /// part of a step to the next.
+  double gives_way_least = 0.02, gives_way_most = 8;
 
   // Joints.
   double joint_frequency = 120;  ///< Hz at most (a quarter of the sub-steps' rate): gaps of hinges close with it

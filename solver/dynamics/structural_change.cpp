@@ -66,8 +66,12 @@ void FrameDynamics::State::renumber() {
     return found;
   }();
   const FrameSystem* numbered = own.system.get();
+  const std::uint64_t of_loads = own.work.counters.load_solves;
   own.apply_changes(nullptr);
-  jumps->forget_frame();
+  if (own.work.counters.load_solves == of_loads) {  // not of loads alone
+    jumps->forget_frame();
+    ++counters.changes;
+  }
   require_none(std::exchange(own.mechanism, std::nullopt));
   LoadVector load = own.load.vector();
   own.system->drop_idle_loads(load);

@@ -122,6 +122,16 @@ void Simulation::State::substep() {
   if (!crack && !scene.frame->has_detached()) return;
   record(scene.frame->extract_breaks());
   release.release();
+  let_holds_change();
+}
+
+/// Hinges on what moves are as heavy as that gives way: without what left.
+void Simulation::State::let_holds_change() {
+  if (!hinges.holds().any()) return;
+  scene.frame->take_changes();
+  if (!scene.frame->has_detached()) return;
+  record(scene.frame->extract_breaks());
+  release.release();
 }
 
 /// What debris comes upon in the next substep, of `dt`, strikes at its start as at that of a step. Else contacts would
@@ -171,6 +181,8 @@ void Simulation::State::move() {
   const bool together = in_substeps || scene.frame->in_motion();
   if (scene.world->awake_count() == 0 && !together) return;
   substeps_left = scene.frame->substeps();
+  hinges.begin_motion();
+  if (together) let_holds_change();
   scene.timer.engine(
       [&] { together ? scene.world->step(dt, scene.frame->substeps(), *moving_parts) : scene.world->step(dt); });
   overlaps.read();

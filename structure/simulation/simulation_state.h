@@ -24,6 +24,7 @@ struct Simulation::State : StageParts {
   void break_generations();
   void begin_motion();
   void substep();
+  void let_holds_change();
   void strike_between(double dt);
   void strike_on(std::vector<collision::Contact> contacts, double dt);
   void strike_released(std::int64_t newest);

@@ -103,6 +103,7 @@ void Hinges::hang_on_what_left() {
 }
 
 void Hinges::unhook(const Hung& hung) {
+  if (moves_) sums_.ledger.lost_in_contacts += scene_.world->hinge_work_lost(hung.hinge);
   scene_.frame->remove_contact_load(hung.load_key);
   scene_.world->remove_hinge(hung.hinge);
   holds_.let_go(hung.place);
@@ -137,6 +138,7 @@ void Hinges::hang_again(const std::vector<JointId>& joints) {
 
 /// After the world has moved: what each hinge held with, whether it bears that, and what it does to what stands.
 void Hinges::pull() {
+  moves_ = false;
   std::vector<std::pair<Hung, Utilisation>> over;
   for (auto& [key, hung] : hinges_) {
     if (scene_.world->state(hung.body).asleep) continue;

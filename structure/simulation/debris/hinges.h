@@ -30,6 +30,8 @@ class Hinges {
   /// For a substep of `dt`: what moves bears what these pull with, as it is. Returns those that act, each about its
   /// place.
   std::vector<collision::HingePull> act(std::span<const collision::HingePull> pulls, double dt);
+  /// The world is about to move.
+  void begin_motion() { moves_ = true; }
   /// After the world has moved: what each holds with, whether it bears that, and what it does to what stands at rest.
   void pull();
   /// Where they hold to what stands and moves.
@@ -38,8 +40,8 @@ class Hinges {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    auto& [scene, log, sums, debris, holds, hinges, last_load] = *this;
-    archive(holds, hinges, last_load);
+    auto& [scene, log, sums, debris, holds, hinges, last_load, moves] = *this;
+    archive(holds, hinges, last_load);  // between steps nothing moves
   }
 
  private:
@@ -78,6 +80,7 @@ class Hinges {
   StandingHolds holds_;
   std::map<std::int64_t, Hung> hinges_;  ///< by hinge
   std::int64_t last_load_ = 0;           ///< keys of their loads go down from -1
+  bool moves_ = false;                   ///< the world moves: what they took out of bodies since is not accounted yet
 };
 
 }  // namespace topple::structure

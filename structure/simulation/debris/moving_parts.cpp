@@ -72,9 +72,9 @@ void MovingParts::advance(double dt, std::span<const collision::Contact> contact
   });
   const std::vector<collision::HingePull> pulled = hinges_.act(pulls, dt);
   const std::vector<PartingContact> may_part = this->may_part(contacts);
-  const std::uint64_t changes = frame.counters().segmentations;
+  const std::uint64_t changes = frame.mobility_changes();
   substep_.advance();
-  const bool held_anew = frame.counters().segmentations != changes;
+  const bool held_anew = frame.mobility_changes() != changes;
   sums_.ledger.lost_in_contacts += limit_parting(debris_, may_part, debris_.scene.scenario.debris.restitution);
   std::map<std::int64_t, Known> after;
   for (const auto& [id, known] : known_) {

@@ -1,6 +1,5 @@
 #include "simulation/debris/standing_holds.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -56,39 +55,31 @@ std::optional<PartMotion> StandingHolds::velocity(collision::ObstacleId obstacle
 
 collision::ObstacleMotion StandingHolds::motion(collision::ObstacleId obstacle) {
   Hold& hold = holds_.at(obstacle.value);
-  const std::uint64_t now = scene_.frame->counters().segmentations;
-  if (hold.found_at != now) find_mass(hold);
+  const std::uint64_t now = scene_.frame->mobility_changes();
+  if (hold.found_at != now) find_mobility(hold);
   hold.found_at = now;
   const PartMotion shift = displacement(hold);
   hold.followed = shift.moved;
   collision::ObstacleMotion motion;
   motion.pose = moved_pose(hold.origin, shift);
-  motion.mass = hold.mass;
-  motion.inertia = hold.inertia;
+  motion.mobility = hold.mobility;
   return motion;
 }
 
-/// What a free body must have at most to give way by as much as the node does at the first moment. A symmetric matrix
-/// is at most twice its two blocks on the diagonal; and where several hang at one node, each gives way under all.
-void StandingHolds::find_mass(Hold& hold) const {
-  // What does not give way in some way gets a mass all the same: shares of the others (1 m for a length), and 1/kg.
+/// As its node gives way at the first moment; where several hang at one, each may give way under all.
+void StandingHolds::find_mobility(Hold& hold) const {
+  // What gives way in no way does so a little all the same: shares of the others (1 m for a length), and 1/kg.
   constexpr double of_turns = 1e-3, of_other = 1e-6, least = 1e-12;
-  Eigen::Matrix<double, 6, 6> mobility = scene_.frame->mobility(hold.fixed_to);
   const Vec3 arm = hold.place.point - scene_.building[hold.fixed_to].position;
-  Eigen::Matrix<double, 6, 6> to_place = Eigen::Matrix<double, 6, 6>::Identity();
+  collision::Mat6 to_place = collision::Mat6::Identity();
   for (int k = 0; k < 3; ++k) to_place.block<3, 1>(0, 3 + k) = Vec3::Unit(k).cross(arm);
-  mobility = to_place * mobility * to_place.transpose();
-  const Mat3 turning = mobility.bottomRightCorner<3, 3>();
-  const auto largest = [](const Mat3& of) {
-    return std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat3>(of, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
-  };
-  const double moves = largest(mobility.topLeftCorner<3, 3>()), turns = largest(turning);
-  const auto of_node = std::count_if(holds_.begin(), holds_.end(),
-                                     [&](const auto& one) { return one.second.fixed_to == hold.fixed_to; });
-  const double most = 2 * static_cast<double>(of_node);
-  hold.mass = 1 / (most * std::max({moves, of_other * turns, least}));
-  const double floor = std::max({of_turns * turns, of_other * moves, least});
-  hold.inertia = (most * (turning + floor * Mat3::Identity())).inverse();
+  hold.mobility = to_place * scene_.frame->mobility(hold.fixed_to) * to_place.transpose();
+  const double moves = hold.mobility.diagonal().head<3>().maxCoeff(),
+               turns = hold.mobility.diagonal().tail<3>().maxCoeff();
+  hold.mobility.diagonal().head<3>().array() += std::max({of_turns * moves, of_other * turns, least});
+  hold.mobility.diagonal().tail<3>().array() += std::max({of_turns * turns, of_other * moves, least});
+  hold.mobility *= static_cast<double>(std::count_if(
+      holds_.begin(), holds_.end(), [&](const auto& one) { return one.second.fixed_to == hold.fixed_to; }));
 }
 
 void StandingHolds::follow() {

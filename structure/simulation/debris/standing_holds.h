@@ -23,8 +23,9 @@ class StandingHolds {
   void let_go(collision::ObstacleId obstacle);
   /// Of its place; nothing where it stands still, or for another obstacle.
   [[nodiscard]] std::optional<PartMotion> velocity(collision::ObstacleId obstacle) const;
-  /// Where it is, and as how much mass it gives way at most; of one that moves.
+  /// Where it is, and how it gives way; of one that moves.
   [[nodiscard]] collision::ObstacleMotion motion(collision::ObstacleId obstacle);
+  [[nodiscard]] bool any() const { return !holds_.empty(); }
   /// Those off by DebrisSettings::follow go after what they are places of; to be called when what stands has moved.
   void follow();
 
@@ -38,19 +39,18 @@ class StandingHolds {
   struct Hold {
     ContactPlace place;
     NodeId fixed_to;
-    Vec3 origin = Vec3::Zero();             ///< m: where the hinge would be in the undeformed building
-    Vec3 followed = Vec3::Zero();           ///< m: displacement with which the world has it
-    std::optional<std::uint64_t> found_at;  ///< searches for connected parts when its mass was found
-    double mass = 0;                        ///< kg
-    Mat3 inertia = Mat3::Zero();            ///< kg m2, about the place
+    Vec3 origin = Vec3::Zero();                          ///< m: where the hinge would be in the undeformed building
+    Vec3 followed = Vec3::Zero();                        ///< m: displacement with which the world has it
+    std::optional<std::uint64_t> found_at;               ///< changes of mobilities when its own was found
+    collision::Mat6 mobility = collision::Mat6::Zero();  ///< at the place
   };
   template <class Archive>
   friend void serialize(Archive& archive, Hold& hold) {
-    auto& [place, fixed_to, origin, followed, found_at, mass, inertia] = hold;
-    archive(place, fixed_to, origin, followed, found_at, mass, inertia);
+    auto& [place, fixed_to, origin, followed, found_at, mobility] = hold;
+    archive(place, fixed_to, origin, followed, found_at, mobility);
   }
   [[nodiscard]] PartMotion displacement(const Hold& hold) const;
-  void find_mass(Hold& hold) const;
+  void find_mobility(Hold& hold) const;
 
   Scene& scene_;
   std::map<std::int64_t, Hold> holds_;  ///< by obstacle

@@ -108,8 +108,7 @@ void StandingFrame::break_in_impact(std::span<const JointBreak> breaks) {
     state.damage.let_go(one.joint);
   }
   state.follow_breaks();
-  // The push goes on against what is left.
-  for (const int c : state.motion->moving()) (void)state.motion->strike(c, {});
+  take_changes();  // the push goes on against what is left
   state.pending = true;
 }
 

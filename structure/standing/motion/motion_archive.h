@@ -7,8 +7,9 @@ namespace topple::structure {
 
 template <class Archive>
 void StandingMotion::save(Archive& archive) const {
-  const auto& [from, settings, masses, model, damping, momentum, substep, moving, to_chunks, past, starts] = *this;
-  archive(masses, damping, substep, to_chunks, past, starts, moving.size());
+  const auto& [from, settings, masses, model, damping, momentum, substep, moving, to_chunks, past, starts,
+               past_changes] = *this;
+  archive(masses, damping, substep, to_chunks, past, starts, past_changes, moving.size());
   for (const auto& [component, one] : moving) archive(component, one->beginning, *one);
 }
 
@@ -16,7 +17,7 @@ template <class Archive>
 void StandingMotion::load(Archive& archive) {
   forget_all();
   std::size_t count = 0;
-  archive(masses_, damping_, substep_, to_chunks_, past_, starts_, count);
+  archive(masses_, damping_, substep_, to_chunks_, past_, starts_, past_changes_, count);
   for (std::size_t i = 0; i < count; ++i) {
     int component = 0;
     auto made = std::make_unique<Moving>();

@@ -189,8 +189,15 @@ void StandingMotion::stop(int c) {
   past_.struck += own.struck;
   past_.freed += own.freed;
   past_.dissipated += own.dissipated;
+  past_changes_ += moving.frame->counters().changes + 1;
   from_.statics.follow(c, nullptr);
   moving_.erase(found);
+}
+
+std::uint64_t StandingMotion::changes() const {
+  std::uint64_t sum = starts_ + past_changes_;
+  for (const auto& [c, moving] : moving_) sum += moving->frame->counters().changes;
+  return sum;
 }
 
 void StandingMotion::update_masses() {

@@ -39,6 +39,8 @@ class StandingMotion {
   [[nodiscard]] std::vector<int> moving() const;
   /// Components that have begun to move, ever.
   [[nodiscard]] std::uint64_t starts() const { return starts_; }
+  /// Counts up when a component begins or ceases to move, or gets other stiffnesses or masses: mobilities are others.
+  [[nodiscard]] std::uint64_t changes() const;
 
   /// The length of substeps from now on: as few to a step of `dt` as the settings allow. Returns their number.
   int set_step(double dt);
@@ -142,6 +144,7 @@ class StandingMotion {
   std::map<PanelId, Vec3> to_chunks_;  ///< N s, since update_masses(); of panels that are no shells
   MotionEnergy past_;                  ///< of motions that have ended
   std::uint64_t starts_ = 0;
+  std::uint64_t past_changes_ = 0;  ///< of components that move no more
 };
 
 }  // namespace topple::structure

@@ -70,6 +70,14 @@ bool StandingFrame::in_motion() const { return state_->motion && state_->motion-
 int StandingFrame::substeps() const { return state_->substeps; }
 void StandingFrame::move_on(const std::function<void()>& after_substep) { state_->move_on(after_substep); }
 
+void StandingFrame::take_changes() {
+  if (!in_motion()) return;
+  if (state_->loads.changed()) state_->follow_breaks();
+  for (const int c : state_->motion->moving()) (void)state_->motion->strike(c, {});
+}
+
+std::uint64_t StandingFrame::mobility_changes() const { return state_->motion ? state_->motion->changes() : 0; }
+
 std::vector<JointBreak> StandingFrame::extract_breaks() { return state_->breaks.extract(); }
 
 void StandingFrame::read_demands() {

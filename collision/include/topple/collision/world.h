@@ -19,6 +19,7 @@ namespace topple::collision {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 /// Where something is: a point p of it lies at position + orientation p.
 struct Pose {
@@ -151,6 +152,10 @@ struct ObstacleMotion {
   /// by no more than a body of that.
   double mass = 0;
   Mat3 inertia = Mat3::Zero();  ///< as the mass: kg m2, about the pose's position
+  /// Instead of mass and inertia, for what nothing but hinges holds to: how fast it gets, m/s and rad/s, for N s and
+  /// N m s at the pose's position; symmetric, positive definite. That of what gives way along one axis far more than
+  /// along others.
+  std::optional<Mat6> mobility;
   /// Held otherwise than in the part of a step before, as something broke: how it gave way then tells nothing.
   bool held_anew = false;
 

@@ -141,6 +141,7 @@ struct DynamicCounters {
   std::uint64_t retaken = 0;    ///< taken again because joints broke
   std::uint64_t breaks = 0;     ///< of ends of beams
   std::uint64_t yielding = 0;   ///< substeps in which a plastic hinge turned
+  std::uint64_t changes = 0;    ///< times that stiffnesses, masses or what stands became others
   std::uint64_t unsettled = 0;  ///< substeps in which a beam was pressed beyond its critical load
 };
 

@@ -231,6 +231,11 @@ class StandingFrame {
   [[nodiscard]] int substeps() const;
   /// One substep, under the contact loads of the moment. `after_substep` may call fracture().
   void move_on(const std::function<void()>& after_substep = {});
+  /// Between two substeps: what changed acts now on what moves, and not with the next substep: it is gone, and its
+  /// momentum and mass are with what bears them. What that breaks is told by extract_breaks().
+  void take_changes();
+  /// Counts up when mobility() becomes another.
+  [[nodiscard]] std::uint64_t mobility_changes() const;
   /// What broke since it was last told, in order.
   std::vector<JointBreak> extract_breaks();
   /// Between two substeps: what joints of what moves bear now. Without it demand() and utilisation() tell what they
