@@ -51,6 +51,7 @@ double YieldingWay::capacity(const PlasticHinge& hinge) const {
 void YieldingWay::turned_in_motion(int c, std::size_t number, double plastic_rotation, double held) {
   PlasticHinge& hinge = ductile_.hinges(c)[number];
   hinge.plastic_rotation = plastic_rotation;
+  (void)from_.account.change(building_[hinge.joint].member);  // its next state of rest is another one
   from_.joints.remember(hinge.joint, 1);
   report_yield(hinge, held);
 }

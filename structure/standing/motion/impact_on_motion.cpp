@@ -87,7 +87,6 @@ double StandingFrame::turn_in_impact(std::span<const ImpactTurn> turns) {
     const MemberId member = state.building[one.joint].member;
     const int c = state.statics.component(member);
     if (!state.parts.standing(one.joint) || !state.motion->moves(c)) continue;
-    (void)state.account.change(member);  // its next state of rest is another one
     const std::vector<PlasticHinge>& hinges = state.yielding.hinges(c);
     for (std::size_t h = 0; h < hinges.size(); ++h)
       if (hinges[h].joint == one.joint && hinges[h].axis == one.axis)
