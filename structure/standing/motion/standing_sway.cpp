@@ -78,7 +78,10 @@ void StandingFrame::take_changes() {
 
 std::uint64_t StandingFrame::mobility_changes() const { return state_->motion ? state_->motion->changes() : 0; }
 
-std::vector<JointBreak> StandingFrame::extract_breaks() { return state_->breaks.extract(); }
+std::vector<JointBreak> StandingFrame::extract_breaks() {
+  state_->account.lines_are_out();
+  return state_->breaks.extract();
+}
 
 void StandingFrame::read_demands() {
   if (!state_->motion) return;

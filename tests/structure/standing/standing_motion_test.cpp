@@ -64,6 +64,29 @@ struct MassOnBars {
 
 }  // namespace
 
+TEST_CASE("What broke is told once: what leaves later in the same step changes nothing that was told") {
+  const MassOnBars model(1e9);
+  const Building& building = model.frame.building;
+  StandingFrame standing(building, CombinationId(0u), moving_rules());
+  standing.let_move(step);
+  standing.break_joint(building.joint(model.below, 0), BreakCause::tool);
+  const std::vector<JointBreak> first = standing.begin_move();
+  REQUIRE(first.size() == 1);
+  CHECK(first.front().joint == building.joint(model.below, 0));
+  standing.move_on();
+  REQUIRE(standing.in_motion());
+  // Within the step the other bar goes as well, and with it all that stood: the account is settled at once.
+  JointBreak struck;
+  struck.joint = building.joint(model.above, 1);
+  standing.break_in_impact(std::vector{struck});
+  CHECK_FALSE(standing.in_motion());
+  CHECK_FALSE(standing.stands(model.middle));
+  for (const JointBreak& later : standing.end_move()) CHECK(later.joint != first.front().joint);
+  const FrameEnergy energy = standing.energy();
+  CHECK(std::isfinite(energy.freed));
+  CHECK(energy.elastic == Approx(0).margin(1e-6 * energy.freed));
+}
+
 TEST_CASE("Of two bars that bear a mass one goes: the other feels the overshoot of a damped swing") {
   const MassOnBars model(1e9);
   StandingFrame standing(model.frame.building, CombinationId(0u), moving_rules());
