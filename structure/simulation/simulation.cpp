@@ -114,14 +114,19 @@ void Simulation::State::begin_motion() {
   if (panels.any()) standing_fracture.crack();
 }
 
+/// What broke is told, and what lost its hold by that leaves.
+void Simulation::State::let_broken_go() {
+  record(scene.frame->extract_breaks());
+  release.release();
+}
+
 /// One substep of what stands; what lost its hold in it leaves at once.
 void Simulation::State::substep() {
   const auto crack = panels.any() ? std::function<void()>([&] { standing_fracture.crack(); }) : std::function<void()>();
   scene.timer.within(static_cast<std::size_t>(Stage::move), static_cast<std::size_t>(Stage::break_),
                      [&] { scene.frame->move_on(crack); });
   if (!crack && !scene.frame->has_detached()) return;
-  record(scene.frame->extract_breaks());
-  release.release();
+  let_broken_go();
   let_holds_change();
 }
 
@@ -130,8 +135,7 @@ void Simulation::State::let_holds_change() {
   if (!hinges.holds().any()) return;
   scene.frame->take_changes();
   if (!scene.frame->has_detached()) return;
-  record(scene.frame->extract_breaks());
-  release.release();
+  let_broken_go();
 }
 
 /// What debris comes upon in the next substep, of `dt`, strikes at its start as at that of a step. Else contacts would
@@ -152,8 +156,7 @@ void Simulation::State::strike_on(std::vector<collision::Contact> contacts, doub
     const std::int64_t newest = debris.bodies.newest();
     scene.frame->read_demands();
     strike(contacts, dt);
-    record(scene.frame->extract_breaks());
-    release.release();
+    let_broken_go();
     if (debris.bodies.newest() == newest) return;
     contacts = sweep_bodies(dt);
   }

@@ -23,6 +23,7 @@ struct Simulation::State : StageParts {
   void strike(const std::vector<collision::Contact>& contacts, double dt);
   void break_generations();
   void begin_motion();
+  void let_broken_go();
   void substep();
   void let_holds_change();
   void strike_between(double dt);

@@ -215,7 +215,7 @@ namespace {
 class Tip final : public MovingStructure {
  public:
   Mat6 mobility = Mat6::Zero();
-  Vec3 velocity = Vec3::Zero(), turning = Vec3::Zero(), impulse = Vec3::Zero();
+  Vec3 impulse = Vec3::Zero();  ///< of hinges so far
   ObstacleMotion now;
 
   Tip() {
