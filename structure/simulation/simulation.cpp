@@ -203,8 +203,9 @@ void Simulation::State::account() {
     while (next != debris.bodies.motions().end() && next->id < id.value) ++next;
     return next != debris.bodies.motions().end() && next->id == id.value && !scene.world->state(id).asleep;
   });
-  if (debris_fracture.shatter_landed(bodies.contacts())) release.keep_limit();
-  const auto impacts = debris_fracture.impacts_on_panels(bodies.contacts());
+  const std::vector<ContactRecord> landings = debris_fracture.landings(bodies.contacts());
+  if (debris_fracture.shatter_landed(landings)) release.keep_limit();
+  const auto impacts = debris_fracture.impacts_on_panels(landings);
   break_up.break_landed(bodies.contacts());
   debris_fracture.crumble(impacts);
   release.keep_limit();  // some may have fallen asleep

@@ -11,10 +11,8 @@
 
 namespace topple::structure {
 
-/// Of the contacts of the last step: the hardest on each panel. Taken before bodies break up, so that each is felt by
-/// the body that had it.
 std::map<PanelId, DebrisFracture::PanelImpact> DebrisFracture::impacts_on_panels(
-    std::span<const ContactRecord> contacts) const {
+    std::span<const ContactRecord> landings) const {
   std::map<PanelId, PanelImpact> impacts;
   if (!panels_.any()) return impacts;
   const auto feel = [&](collision::BodyId id, std::int64_t tag, const ContactRecord& contact, collision::BodyId other) {
@@ -49,7 +47,7 @@ std::map<PanelId, DebrisFracture::PanelImpact> DebrisFracture::impacts_on_panels
     PanelImpact& hardest = impacts[panel];
     if (impact.energy > hardest.energy) hardest = impact;
   };
-  for (const ContactRecord& contact : contacts) {
+  for (const ContactRecord& contact : landings) {
     const bool two = contact.other.kind == collision::Touched::Kind::body;
     feel(contact.body, contact.part_tag, contact, two ? contact.other.body : collision::BodyId());
     if (two) feel(contact.other.body, contact.other.part_tag, contact, contact.body);
@@ -121,6 +119,7 @@ void DebrisFracture::crumble(const std::map<PanelId, PanelImpact>& impacts) {
     const Vec3 at = state.pose * (impact.at - one.rest.centre);
     std::vector<Body> pieces = break_out_in_flight(panel, impact);
     if (pieces.empty()) continue;
+    landing_.spend(one.id, part_number(scene_.building, Part(panel)));
     log_.record(SimulationEvent::Kind::panel_fractured, scene_.building[panel].name).position = at;
     for (Body& piece : pieces) chunks[id].push_back(std::move(piece));
   }

@@ -9,6 +9,7 @@
 
 #include "simulation/debris/break_up.h"
 #include "simulation/debris/release_impulses.h"
+#include "simulation/fracture/landing_impulses.h"
 
 namespace topple::structure {
 
@@ -31,8 +32,10 @@ class DebrisFracture {
   /// A panel that an impact broke off the frame: what hit it pushes the chunks that it broke out, each by its share of
   /// the mass, and flies on through the gap.
   void shatter_struck(collision::BodyId id);
-  /// Panels that came down hard by the contacts of the last step. False: none.
-  bool shatter_landed(std::span<const ContactRecord> contacts);
+  /// Of the contacts of the last step, what the following ask for: how panels that break have landed.
+  [[nodiscard]] std::vector<ContactRecord> landings(std::span<const ContactRecord> contacts);
+  /// Panels that came down hard, by landings(). False: none.
+  bool shatter_landed(std::span<const ContactRecord> landings);
 
   /// An impact on a panel of a body that has other parts.
   struct PanelImpact {
@@ -40,16 +43,16 @@ class DebrisFracture {
     Vec3 at = Vec3::Zero();  ///< in the undeformed building
     double radius = 0;       ///< of the ball that hit it, m
   };
-  /// Of the contacts of the last step: the hardest on each panel. Taken before bodies break up, so that each is felt by
-  /// the body that had it.
-  [[nodiscard]] std::map<PanelId, PanelImpact> impacts_on_panels(std::span<const ContactRecord> contacts) const;
+  /// Of landings(): the hardest on each panel. Taken before bodies break up, so that each is felt by the body that had
+  /// it.
+  [[nodiscard]] std::map<PanelId, PanelImpact> impacts_on_panels(std::span<const ContactRecord> landings) const;
   /// They break out of the bodies that they are in now.
   void crumble(const std::map<PanelId, PanelImpact>& impacts);
 
-  /// It has nothing of its own.
   template <class Archive>
-  void serialize(Archive&) {
-    [[maybe_unused]] auto& [scene, log, sums, debris, hinges, panels, views, break_up, release_impulses] = *this;
+  void serialize(Archive& archive) {
+    auto& [scene, log, sums, debris, hinges, panels, views, break_up, release_impulses, landing] = *this;
+    archive(landing);
   }
 
  private:
@@ -74,6 +77,7 @@ class DebrisFracture {
   PieceViews& views_;
   BreakUp& break_up_;
   const ReleaseImpulses& release_impulses_;
+  LandingImpulses landing_;
 };
 
 }  // namespace topple::structure

@@ -120,10 +120,14 @@ void DebrisFracture::shatter_struck(collision::BodyId id) {
   }
 }
 
-/// Panels that came down hard in this step.
-bool DebrisFracture::shatter_landed(std::span<const ContactRecord> contacts) {
+std::vector<ContactRecord> DebrisFracture::landings(std::span<const ContactRecord> contacts) {
+  if (!panels_.any()) return {};
+  return landing_.read(contacts, scene_.scenario.step);
+}
+
+bool DebrisFracture::shatter_landed(std::span<const ContactRecord> landings) {
   if (!panels_.any()) return false;
-  std::map<std::int64_t, Landing> landings;  // by body
+  std::map<std::int64_t, Landing> hardest_of;  // by body
   std::vector<std::int64_t> awake;
   for (const std::int64_t id : debris_.bodies.single_panels())
     if (!debris_.bodies.motion(id).asleep && panels_.breakable_of(debris_.bodies.at(id)).valid()) awake.push_back(id);
@@ -136,20 +140,20 @@ bool DebrisFracture::shatter_landed(std::span<const ContactRecord> contacts) {
     const double change = std::abs(contact.impulse.dot(contact.normal)) / mass;
     const PanelId panel = one->panels.front();
     if (change < panels_.of(panel).breaking_speed) return;
-    Landing& hardest = landings[id.value];
+    Landing& hardest = hardest_of[id.value];
     if (change > hardest.speed)
       hardest = {change, state.pose.orientation.conjugate() * (contact.point - state.pose.position)};
   };
   if (!awake.empty())
-    for (const ContactRecord& contact : contacts) {
+    for (const ContactRecord& contact : landings) {
       feel(contact.body, contact);
       if (contact.other.kind == collision::Touched::Kind::body) feel(contact.other.body, contact);
     }
-  for (const auto& [id, landing] : landings) {
+  for (const auto& [id, landing] : hardest_of) {
     std::size_t out = 0;
     (void)shatter({id}, scene_.world->state({id}).pose * landing.at, std::nullopt, out);
   }
-  return !landings.empty();
+  return !hardest_of.empty();
 }
 
 }  // namespace topple::structure

@@ -39,8 +39,9 @@ struct ImpactSettings {
   /// Joints that come this near to failing (relative) fail with the first: symmetric ones differ by rounding only.
   double same_instant = 1e-6;
   /// s. For so long after they met, at least, what two things do to each other is an impact, of which the law of impact
-  /// has said what it breaks: contacts take its momentum in less, and it presses on no joint. Larger: what lands
-  /// heavily presses later.
+  /// has said what it breaks: contacts take its momentum in less, and it presses on no joint. Panels of debris break by
+  /// their impulse over this time, and hinges by their mean force. Larger: what lands heavily presses later, and
+  /// shorter pulls of hinges break nothing.
   double landing_time = 0.01;
   /// s. What lies on debris presses on its joints with its force over this time: longer than the contact solver's
   /// chatter, shorter than anything that settles.

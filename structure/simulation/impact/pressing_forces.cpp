@@ -14,7 +14,7 @@ namespace {
 constexpr double nothing = 1e-3;
 }  // namespace
 
-void PressingForces::gather(const Key& key, const BodyPlace& place, const Vec3& force, const Vec3& point) {
+void PressingForces::gather(const ContactKey& key, const BodyPlace& place, const Vec3& force, const Vec3& point) {
   const Mat3 back = place.pose.orientation.toRotationMatrix().transpose();
   Pressing& own = pressing_[key];
   own.touches = true;
@@ -29,16 +29,13 @@ void PressingForces::read(std::span<const ContactRecord> contacts, double dt,
                           const std::function<std::optional<BodyPlace>(collision::BodyId)>& place_of) {
   for (const ContactRecord& contact : contacts) {
     const bool two = contact.other.kind == collision::Touched::Kind::body;
-    const std::int64_t other = two ? contact.other.body.value : contact.other.obstacle.value;
-    const auto kind = static_cast<std::int64_t>(contact.other.kind);
+    const ContactKey key = key_of(contact);
     if (contact.part_tag >= 0)
-      if (const auto place = place_of(contact.body))
-        gather({contact.body.value, contact.part_tag, kind, other, contact.other.part_tag}, *place,
-               -contact.impulse / dt, contact.point);
+      if (const auto place = place_of(contact.body)) gather(key, *place, -contact.impulse / dt, contact.point);
     if (two && contact.other.part_tag >= 0)
       if (const auto place = place_of(contact.other.body))
-        gather({contact.other.body.value, contact.other.part_tag, kind, contact.body.value, contact.part_tag}, *place,
-               contact.impulse / dt, contact.point);
+        gather({key.other, key.other_part, key.other_kind, key.body, key.part}, *place, contact.impulse / dt,
+               contact.point);
   }
   // The exact decay over dt of an average with this time constant: two short steps are one long one.
   const double share = 1 - std::exp(-dt / impact_settings.pressing_time);

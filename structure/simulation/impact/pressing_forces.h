@@ -1,7 +1,6 @@
 #pragma once
 // What lies on debris, or debris on what it lies on, presses on its joints: the forces of contacts that last, averaged
 // over a stated time, whatever the length of the step. Impacts are the business of their law.
-#include <compare>
 #include <functional>
 #include <map>
 #include <span>
@@ -35,10 +34,6 @@ class PressingForces {
   }
 
  private:
-  struct Key {
-    std::int64_t body, part, other_kind, other, other_part;
-    auto operator<=>(const Key&) const = default;
-  };
   static constexpr double apart = -1;
   struct Pressing {
     Vec3 force = Vec3::Zero(), point = Vec3::Zero();  ///< axes of the undeformed building
@@ -47,20 +42,15 @@ class PressingForces {
     double lasted = apart;  ///< s, at least, that they have touched
     bool touches = false;
   };
-  template <class Archive>
-  friend void serialize(Archive& archive, Key& key) {
-    auto& [body, part, other_kind, other, other_part] = key;
-    archive(body, part, other_kind, other, other_part);
-  }
   /// What is seen is of the step that runs.
   template <class Archive>
   friend void serialize(Archive& archive, Pressing& one) {
     auto& [force, point, seen_force, seen_point, seen_weight, lasted, touches] = one;
     archive(force, point, lasted);
   }
-  void gather(const Key& key, const BodyPlace& place, const Vec3& force, const Vec3& point);
+  void gather(const ContactKey& key, const BodyPlace& place, const Vec3& force, const Vec3& point);
 
-  std::map<Key, Pressing> pressing_;
+  std::map<ContactKey, Pressing> pressing_;
 };
 
 }  // namespace topple::structure
