@@ -73,7 +73,7 @@ struct DebrisObstacleData {
   double gives_way = 1;  ///< its mobility, as a share of that which it has by itself
   double alike = 0;      ///< share of the force of the last part that was there in the one before
   double lasting = 0;    ///< share of it that goes on: the rest is part of an impact
-  int known_for = 0;     ///< parts of a step, at most three
+  int known_for = 0;     ///< parts of a step, at most two
   int solver = -1;       ///< its number in the step's solver; -1: not in it yet
   int island = -1;
   Mat6 root_mobility = Mat6::Zero();  ///< for the solver, in this part of the step

@@ -58,7 +58,7 @@ void MovingObstacles::update(DebrisObstacle& one, const ObstacleMotion& motion, 
   }
   const Vec3 force = std::exchange(one.impulse, Vec3::Zero()) / dt,
              moment = std::exchange(one.angular_impulse, Vec3::Zero()) / dt;
-  one.known_for = std::min(one.known_for + 1, 3);
+  one.known_for = std::min(one.known_for + 1, 2);
   estimate_compliance(one, motion, force, moment);
   one.force = force;
   one.moment = moment;
@@ -92,14 +92,12 @@ void MovingObstacles::estimate_compliance(DebrisObstacle& one, const ObstacleMot
   const double own = product(more, more_moment, more, more_moment);
   const double alike = present > own ? 1 - std::sqrt(own / present) : 0;
   one.lasting = std::min(alike, std::exchange(one.alike, alike));  // an impact takes two parts
-  if (one.known_for < 3) return;  // by how much its acceleration changed is not known yet
+  if (now.mobility || one.known_for < 2) return;                   // what it would have done otherwise is not known yet
   if (!(own > scene_.settings.telling_change * std::max(before, present))) return;
-  const double shown = more.dot(now.acceleration - one.motion.acceleration) +
-                       more_moment.dot(now.angular_acceleration - one.motion.angular_acceleration);
-  if (!(shown > 0)) return;
-  // Each direction of a mobility is told by itself: what one shows must not make the others stiffer.
-  const double least = now.mobility ? 1 : scene_.settings.gives_way_least;
-  one.gives_way = std::clamp(shown / own, least, scene_.settings.gives_way_most);
+  const double shown = more.dot(now.last_acceleration - one.motion.acceleration) +
+                       more_moment.dot(now.last_angular_acceleration - one.motion.angular_acceleration);
+  if (shown > 0)
+    one.gives_way = std::clamp(shown / own, scene_.settings.gives_way_least, scene_.settings.gives_way_most);
 }
 
 void MovingObstacles::stand_still(DebrisObstacle& one) {

@@ -2,12 +2,12 @@
 // Obstacles that move with a structure. Such an obstacle is a body of the solver for the length of one part of a step,
 // and then the structure says where it is and how fast.
 //
-// Within a part it goes on as it did in the last one, and where what touches it does otherwise it gives way as it would
-// by itself: the structure gives way by less, so that no energy comes of it. The force between a body and the structure
-// then goes to its true value by a factor sqrt(1 - q) for each part, q being the mobility of both over what was taken
-// for it; it grows where q is above 4/3. By how much the structure gives way its last two parts tell, where the force
-// on it changed between them by enough (a secant, as in partitioned schemes for fluids and structures; U. Kuettler, W.
-// A. Wall, Computational Mechanics 43 (2008), 61).
+// Within a part it goes on as the structure foresees, if what touched it in the last one goes on to; where what touches
+// it does otherwise it gives way as it would by itself, or as the structure says that it does. The force between a body
+// and the structure then goes to its true value by a factor sqrt(1 - q) for each part, q being the mobility of both
+// over what was taken for it; it grows where q is above 4/3, and with the structure's own mobility for a part of a step
+// there is no error (A. Gravouil, A. Combescure, Int. J. Numer. Meth. Eng. 50 (2001), 199). By how much the structure
+// gives way what it did beside what was foreseen tells, where the force on it changed by enough.
 #include <span>
 #include <vector>
 

@@ -40,6 +40,7 @@ struct FrameDynamics::State {
   bool accepted = true;     ///< no substep is under way: `before` is the motion now, `now` that before the last substep
   std::vector<Vec6> started_at;  ///< per node: displacements at set_state(), else 0
   NodeMotions nodes;
+  std::vector<Vec6> foreseen;   ///< per node: mean accelerations of the next substep; empty: not asked for yet
   std::vector<Vec6> reactions;  ///< per support, at the end of the substep; empty: not asked for yet
   EnergyLedger ledger;
   Eigen::VectorXd constant_load, collocated_load, substep_load;  ///< substep_load: of what changed in this substep
@@ -84,6 +85,9 @@ struct FrameDynamics::State {
   /// To its end, with what yields, joints that break apart.
   void advance_substep(const JointLaw* law);
   void advance_first_order(const JointLaw* law);
+  /// Of the substep that begins now: its equation, solved, while nothing yields.
+  void solve_elastic();
+  void foresee();
   void find_end();
   void accept();
   void account_energy();

@@ -69,10 +69,10 @@ void FrameDynamics::State::Jumps::load_from(std::istream& from, const FrameSyste
 
 void FrameDynamics::save_state(std::ostream& to) const {
   // Of the options damping alone changes, of inertia its factor, which is the method's. The load that acts in a
-  // substep, the geometric one and the equation are found in each substep anew.
+  // substep, the geometric one, the equation and what is foreseen are found in each substep anew.
   const auto& [options, method, inertia, frame, patterns, recent_loads, kinks, time, before, now, accepted, started_at,
-               nodes, reactions, ledger, constant_load, collocated_load, substep_load, geometric, changed, waiting,
-               jumps, prepared, counters, breaks, equation] = *state_;
+               nodes, foreseen, reactions, ledger, constant_load, collocated_load, substep_load, geometric, changed,
+               waiting, jumps, prepared, counters, breaks, equation] = *state_;
   frame.save_state(to);
   StateWriter archive(to);
   archive(options.damping, method, patterns, recent_loads, kinks, time, before, now, accepted, started_at, nodes,
@@ -88,6 +88,7 @@ void FrameDynamics::load_state(std::istream& from) {
           state.before, state.now, state.accepted, state.started_at, state.nodes, state.reactions, state.ledger,
           state.constant_load, state.substep_load, state.changed, state.waiting, state.prepared, state.counters,
           state.breaks);
+  state.foreseen.clear();
   state.inertia.factor = state.method.s;
   state.jumps->load_from(from, state.system());
 }

@@ -232,6 +232,14 @@ const std::vector<Vec6>& FrameDynamics::velocities() const {
   state_->evaluate_nodes();
   return state_->nodes.end().v;
 }
+const std::vector<Vec6>& FrameDynamics::foresee() {
+  if (state_->foreseen.empty()) {
+    strike({});
+    require_none(state_->core().renew_factor());
+    state_->foresee();
+  }
+  return state_->foreseen;
+}
 std::vector<Vec6> FrameDynamics::accelerations() const {
   std::vector<Vec6> result(state_->frame.model().nodes.size());
   state_->system().node_displacements_of_scaled(state_->current().a, result);

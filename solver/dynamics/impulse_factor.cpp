@@ -71,25 +71,8 @@ void FrameDynamics::State::ImpulseFactor::solve(Eigen::VectorXd& x) {
 
 Eigen::MatrixXd FrameDynamics::State::ImpulseFactor::between(const Eigen::MatrixXd& F, const Eigen::MatrixXd& G) {
   const Eigen::MatrixXd forces = ratio_.asDiagonal() * F;
-  Eigen::MatrixXd X = ratio_.asDiagonal() * G;
-  BaseFactor* const base = own().serving->base();
-  if (base == nullptr || own().serving->is_soft()) {
-    for (Eigen::Index j = 0; j < X.cols(); ++j) {
-      Eigen::VectorXd x = X.col(j);
-      own().solve_as_it_stands(x);
-      X.col(j) = x;
-    }
-    return forces.transpose() * X / softened_;
-  }
-  std::vector<int> loaded;
-  for (Eigen::Index row = 0; row < F.rows(); ++row)
-    if ((F.row(row).array() != 0).any()) loaded.push_back(static_cast<int>(row));
-  std::vector<char> known;
-  base->solve_on_paths(X, loaded, known);
-  own().count_answer(1);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(F.cols(), G.cols());
-  for (const int row : loaded) result += forces.row(row).transpose() * X.row(row);
-  return result / softened_;
+  const Eigen::MatrixXd X = ratio_.asDiagonal() * G;
+  return own().answers_between(forces, X) / softened_;
 }
 
 }  // namespace topple::solver

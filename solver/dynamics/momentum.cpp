@@ -51,6 +51,15 @@ Eigen::MatrixXd FrameDynamics::mobility(std::span<const std::vector<Impulse>> fo
   return (result + result.transpose()) / 2;
 }
 
+Eigen::MatrixXd FrameDynamics::substep_mobility(std::span<const std::vector<Impulse>> forces) const {
+  State& state = *state_;
+  Eigen::MatrixXd F(state.equations(), static_cast<Eigen::Index>(forces.size()));
+  for (std::size_t j = 0; j < forces.size(); ++j)
+    F.col(static_cast<Eigen::Index>(j)) = state.scaled_impulses(forces[j]);
+  const Eigen::MatrixXd result = state.core().answers_between(F, F);
+  return state.method.gamma / (2 * state.method.c) * (result + result.transpose());
+}
+
 void FrameDynamics::strike(std::span<const Impulse> impulses) {
   State& state = *state_;
   // What changed comes first; the momentum that it leaves out is an impulse here, and no load of a substep to come.

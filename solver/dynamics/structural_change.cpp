@@ -27,6 +27,7 @@ void FrameDynamics::State::begin_changed() {
 void FrameDynamics::State::forget_motion() {
   ledger.forget_products();
   nodes.forget();
+  foreseen.clear();
 }
 
 void FrameDynamics::State::apply_changes() {

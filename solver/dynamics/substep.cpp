@@ -10,6 +10,12 @@ void FrameDynamics::State::advance_substep(const JointLaw* law) {
 }
 
 void FrameDynamics::State::advance_first_order(const JointLaw* law) {
+  solve_elastic();
+  find_end();
+  if (law != nullptr) yield(law->plastic_hinges());
+}
+
+void FrameDynamics::State::solve_elastic() {
   kinks.restore();
   collocated_load = constant_load + substep_load;
   patterns.add_to(method.af, collocated_load);
@@ -18,8 +24,19 @@ void FrameDynamics::State::advance_first_order(const JointLaw* law) {
   equation.set(system(), method, options.damping, before, collocated_load,
                options.keep_energy ? &ledger.products(system(), before) : nullptr);
   core().solve_as_it_stands(equation.w());
-  find_end();
-  if (law != nullptr) yield(law->plastic_hinges());
+}
+
+void FrameDynamics::State::foresee() {
+  patterns.find(system());
+  if (options.second_order) {
+    evaluate_end();
+    geometric.begin(find_geometric_load(nodes.end().u, true));
+  }
+  solve_elastic();
+  MotionState end;
+  equation.find_end(method, before, end);
+  foreseen.assign(frame.model().nodes.size(), Vec6::Zero());
+  system().node_displacements_of_scaled((end.v - before.v) / method.h, foreseen);
 }
 
 void FrameDynamics::State::find_end() {
@@ -58,6 +75,7 @@ void FrameDynamics::State::accept() {
   std::swap(before, now);
   if (kinks.accept()) ++counters.yielding;
   accepted = true;
+  foreseen.clear();
   ledger.forget_products();
   if (options.keep_energy) {
     stored_energy();

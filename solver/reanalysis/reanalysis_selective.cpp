@@ -85,4 +85,26 @@ void Reanalysis::forget_references() {
   if (state_->selective) state_->selective->forget_utilisations();
 }
 
+Eigen::MatrixXd Reanalysis::State::answers_between(const Eigen::MatrixXd& F, const Eigen::MatrixXd& G) {
+  Eigen::MatrixXd X = G;
+  BaseFactor* const base = serving->base();
+  if (base == nullptr || serving->is_soft()) {
+    for (Eigen::Index j = 0; j < X.cols(); ++j) {
+      Eigen::VectorXd x = X.col(j);
+      solve_as_it_stands(x);
+      X.col(j) = x;
+    }
+    return F.transpose() * X;
+  }
+  std::vector<int> loaded;
+  for (Eigen::Index row = 0; row < F.rows(); ++row)
+    if ((F.row(row).array() != 0).any()) loaded.push_back(static_cast<int>(row));
+  std::vector<char> known;
+  base->solve_on_paths(X, loaded, known);
+  count_answer(1);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(F.cols(), G.cols());
+  for (const int row : loaded) result += F.row(row).transpose() * X.row(row);
+  return result;
+}
+
 }  // namespace topple::solver

@@ -95,6 +95,9 @@ struct Reanalysis::State {
   [[nodiscard]] std::optional<Defect> renew_factor();
   /// x := K^-1 x (scaled equations) of the matrix as it stands, as ServingFactor::solve() has it.
   void solve_as_it_stands(Eigen::VectorXd& x) { refresh.pay(serving->solve(x)); }
+  /// F' K^-1 G of the matrix as it stands (scaled equations); G is zero wherever F is. Only what joins their rows in
+  /// the factor is gone through.
+  [[nodiscard]] Eigen::MatrixXd answers_between(const Eigen::MatrixXd& F, const Eigen::MatrixXd& G);
   /// An answer was found outside of solve(), `solves` times over the factor and its correction.
   void count_answer(int solves) { refresh.pay(serving->count_answer(solves)); }
 

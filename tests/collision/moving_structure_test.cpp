@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "world_builder.h"
 
@@ -16,7 +18,8 @@ constexpr double kTop = 0.1;
 /// A rigid platform that goes up and down on a spring, or along x as it is told.
 class Platform final : public MovingStructure {
  public:
-  double mass = 1000, stiffness = 0, height = 0, speed = 0, acceleration = 0;
+  double mass = 1000, stiffness = 0, height = 0, speed = 0;
+  double force = 0, acceleration = 0;  ///< in the last part of a step
   double time = 0, along_amplitude = 0, along_frequency = 0;
   double work = 0, impulse = 0;  ///< of what lies on it
   double taken_lighter = 2;      ///< than it is, by the world
@@ -33,10 +36,21 @@ class Platform final : public MovingStructure {
     const double w = along_frequency;
     motion.pose.position = Vec3(along_amplitude * (1 - std::cos(w * time)), 0, height);
     motion.velocity = Vec3(along_amplitude * w * std::sin(w * time), 0, speed);
-    motion.acceleration = Vec3(along_amplitude * w * w * std::cos(w * time), 0, acceleration);
+    constexpr double part = kStep / kParts;
+    const double foreseen = (after(part, force).second - speed) / part;
+    motion.acceleration = Vec3(along_amplitude * w * w * std::cos(w * time), 0, foreseen);
+    motion.last_acceleration = Vec3(along_amplitude * w * w * std::cos(w * (time - part)), 0, acceleration);
     motion.mass = mass / taken_lighter;
     motion.inertia = box_inertia(mass / taken_lighter, {2, 2, kTop});
     return motion;
+  }
+
+  /// Height and speed after so long under a force that lasts.
+  [[nodiscard]] std::pair<double, double> after(double dt, double pushed) const {
+    if (!(stiffness > 0)) return {height + (speed + pushed * dt / mass / 2) * dt, speed + pushed * dt / mass};
+    const double w = std::sqrt(stiffness / mass), rest = pushed / stiffness, x = height - rest;
+    return {rest + x * std::cos(w * dt) + speed / w * std::sin(w * dt),
+            -x * w * std::sin(w * dt) + speed * std::cos(w * dt)};
   }
 
   /// Exactly, under the mean force of the part.
@@ -45,15 +59,9 @@ class Platform final : public MovingStructure {
     for (const Contact& contact : contacts) pushed += contact.impulse.z();
     for (const HingePull& pull : pulls) pushed += pull.impulse.z();
     impulse += pushed;
-    const double before = height, was = speed, force = pushed / dt;
-    if (stiffness > 0) {
-      const double w = std::sqrt(stiffness / mass), rest = force / stiffness, x = height - rest;
-      height = rest + x * std::cos(w * dt) + speed / w * std::sin(w * dt);
-      speed = -x * w * std::sin(w * dt) + was * std::cos(w * dt);
-    } else {
-      speed += pushed / mass;
-      height += (was + speed) / 2 * dt;
-    }
+    const double before = height, was = speed;
+    force = pushed / dt;
+    std::tie(height, speed) = after(dt, force);
     work += force * (height - before);
     acceleration = (speed - was) / dt;
     time += dt;

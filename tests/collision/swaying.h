@@ -34,8 +34,8 @@ class Swaying final : public MovingStructure {
     for (const HingePull& pull : pulls) push(pull.holder, pull.impulse);
     for (auto& [id, held] : held_) {
       const auto found = pushed.find(id);
-      const Vec3 force = (found == pushed.end() ? Vec3::Zero() : found->second) / dt;
-      held.acceleration = force / mass - stiffness * held.way - 2 * std::sqrt(stiffness) * held.speed;
+      held.force = (found == pushed.end() ? Vec3::Zero() : found->second) / dt;
+      held.acceleration = held.accelerates();
       held.speed += held.acceleration * dt;
       held.way += held.speed * dt;
     }
@@ -52,7 +52,8 @@ class Swaying final : public MovingStructure {
     motion.pose = held.home;
     motion.pose.position += held.way + Vec3(amplitude * std::sin(rate * time_), 0, 0);
     motion.velocity = held.speed + Vec3(amplitude * rate * std::cos(rate * time_), 0, 0);
-    motion.acceleration = held.acceleration - Vec3(amplitude * rate * rate * std::sin(rate * time_), 0, 0);
+    motion.acceleration = held.accelerates() - Vec3(amplitude * rate * rate * std::sin(rate * time_), 0, 0);
+    motion.last_acceleration = held.acceleration - Vec3(amplitude * rate * rate * std::sin(rate * time_), 0, 0);
     motion.mass = mass / 2;
     motion.inertia = mass * Mat3::Identity();
     return motion;
@@ -60,7 +61,9 @@ class Swaying final : public MovingStructure {
   static constexpr double mass = 3000, amplitude = 0.02, rate = 6, stiffness = 400;  // kg, m, 1/s, 1/s2
   struct Held {
     Pose home;
-    Vec3 way = Vec3::Zero(), speed = Vec3::Zero(), acceleration = Vec3::Zero();
+    Vec3 way = Vec3::Zero(), speed = Vec3::Zero();
+    Vec3 force = Vec3::Zero(), acceleration = Vec3::Zero();  ///< in the last part of a step
+    [[nodiscard]] Vec3 accelerates() const { return force / mass - stiffness * way - 2 * std::sqrt(stiffness) * speed; }
   };
   std::map<std::int64_t, Held> held_;
   double time_ = 0;

@@ -5,6 +5,7 @@
 
 #include "model/index_of.h"
 #include "simulation/debris/debris_settings.h"
+#include "simulation/impact/impact_settings.h"
 #include "topple/structure/joint_check.h"
 
 namespace topple::structure {
@@ -136,10 +137,19 @@ void Hinges::hang_again(const std::vector<JointId>& joints) {
   }
 }
 
+/// What is over sooner than an impact lets no joint feel its force: its mean by the exact decay over dt, so that two
+/// short parts of a step are one long one.
+void Hinges::feel(Hung& hung, const Vec3& force, const Vec3& moment, double dt) {
+  const double share = 1 - std::exp(-dt / impact_settings.landing_time);
+  hung.felt += share * (force - hung.felt);
+  hung.moment_felt += share * (moment - hung.moment_felt);
+  const Utilisation used = utilisation_of(hung);
+  if (used.value > 1) over_.emplace_back(hung.hinge.value, used);
+}
+
 /// After the world has moved: what each hinge held with, whether it bears that, and what it does to what stands.
 void Hinges::pull() {
   moves_ = false;
-  std::vector<std::pair<Hung, Utilisation>> over;
   for (auto& [key, hung] : hinges_) {
     if (scene_.world->state(hung.body).asleep) continue;
     pass_what_holds(hung.body, scene_.joint_position(hung.joint),
@@ -148,15 +158,19 @@ void Hinges::pull() {
     const Vec6 held = scene_.world->hinge_force(hung.hinge);  // of the body on its holder
     const Mat3 to_global = (hung.axes * debris_.rotation(hung.holder).transpose()).transpose();
     const Vec3 force = to_global * held.head<3>(), moment = to_global * held.tail<3>();
-    const Utilisation used = utilisation_of(hung, force, moment);
-    const bool acted = std::exchange(hung.acted, false);
     smooth(hung, force, moment);
-    if (used.value > 1)
-      over.emplace_back(hung, used);
-    else if (hung.holder.value < 0 && !acted)
-      load_by(hung);
+    if (std::exchange(hung.acted, false)) continue;
+    feel(hung, force, moment, scene_.scenario.step);
+    if (hung.holder.value < 0) load_by(hung);
   }
-  for (const auto& [hung, used] : over) {
+  break_over();
+}
+
+void Hinges::break_over() {
+  for (const auto& [key, used] : std::exchange(over_, {})) {
+    const auto found = hinges_.find(key);
+    if (found == hinges_.end()) continue;  // what it held to has left meanwhile
+    const Hung hung = found->second;
     JointBreak line;
     line.joint = hung.joint;
     line.sense = used.sense;
@@ -169,16 +183,16 @@ void Hinges::pull() {
   }
 }
 
-/// `force` and `moment` of the body on its holder, global axes.
-Utilisation Hinges::utilisation_of(const Hung& hung, const Vec3& force, const Vec3& moment) const {
+/// By what the joint feels.
+Utilisation Hinges::utilisation_of(const Hung& hung) const {
   const Joint& joint = scene_.building[hung.joint];
   const Mat3 axes =
       scene_.building[joint.member].axes * debris_.rotation(hung.member_hangs ? hung.body : hung.holder).transpose();
   // End forces are what the rigid end does to the member.
   const double sign = hung.member_hangs ? -1 : 1;
   Eigen::Matrix<double, 12, 1> end_forces = Eigen::Matrix<double, 12, 1>::Zero();
-  end_forces.segment<3>(6 * joint.end) = sign * axes * force;
-  end_forces.segment<3>(6 * joint.end + 3) = sign * axes * moment;
+  end_forces.segment<3>(6 * joint.end) = sign * axes * hung.felt;
+  end_forces.segment<3>(6 * joint.end + 3) = sign * axes * hung.moment_felt;
   return utilisation(joint.capacity, member_joint_demand(end_forces, joint.end),
                      scene_.strength_factors[index_of(hung.joint)]);
 }
@@ -211,6 +225,7 @@ std::vector<collision::HingePull> Hinges::act(std::span<const collision::HingePu
     const auto found = hinges_.find(pull.hinge.value);
     if (found == hinges_.end()) continue;
     load(found->second, pull.impulse / dt, pull.moment / dt);
+    feel(found->second, pull.impulse / dt, pull.moment / dt, dt);
     found->second.acted = true;
     acted.push_back(pull);
   }

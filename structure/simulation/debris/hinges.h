@@ -28,11 +28,14 @@ class Hinges {
   /// The body is about to go: it hangs on nothing any more, and nothing on it. Returns the joints of both kinds.
   std::vector<JointId> unhook(collision::BodyId id);
   /// For a substep of `dt`: what moves bears what these pull with, as it is. Returns those that act, each about its
-  /// place.
+  /// place. Those that bear no more go with break_over().
   std::vector<collision::HingePull> act(std::span<const collision::HingePull> pulls, double dt);
+  /// After that substep, which they still acted in: those over their capacity are gone.
+  void break_over();
   /// The world is about to move.
   void begin_motion() { moves_ = true; }
-  /// After the world has moved: what each holds with, whether it bears that, and what it does to what stands at rest.
+  /// After the world has moved: what those that act() did not see hold with, whether they bear that, and what they do
+  /// to what stands at rest.
   void pull();
   /// Where they hold to what stands and moves.
   [[nodiscard]] StandingHolds& holds() { return holds_; }
@@ -40,8 +43,8 @@ class Hinges {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    auto& [scene, log, sums, debris, holds, hinges, last_load, moves] = *this;
-    archive(holds, hinges, last_load);  // between steps nothing moves
+    auto& [scene, log, sums, debris, holds, hinges, over, last_load, moves] = *this;
+    archive(holds, hinges, last_load);  // between steps nothing moves or is over
   }
 
  private:
@@ -53,24 +56,26 @@ class Hinges {
     bool member_hangs = true;        ///< the joint's member is of the body, else its node
     Mat3 axes = Mat3::Identity();    ///< of the joint, in the holder's own frame
     std::int64_t load_key = 0;
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  ///< on the holder about the joint, smoothed
+    Vec3 felt = Vec3::Zero(), moment_felt = Vec3::Zero();  ///< by the joint: on the holder about it, less than impacts
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();      ///< on the holder about the joint, smoothed
     Vec3 applied = Vec3::Zero(), moment_applied = Vec3::Zero();
     bool acted = false;  ///< in substeps of this step: its smoothed pull does not act as well
   };
   template <class Archive>
   friend void serialize(Archive& archive, Hung& hung) {
-    auto& [joint, hinge, body, holder, place, member_hangs, axes, load_key, force, moment, applied, moment_applied,
-           acted] = hung;
-    archive(joint, hinge, body, holder, place, member_hangs, axes, load_key, force, moment, applied, moment_applied,
-            acted);
+    auto& [joint, hinge, body, holder, place, member_hangs, axes, load_key, felt, moment_felt, force, moment, applied,
+           moment_applied, acted] = hung;
+    archive(joint, hinge, body, holder, place, member_hangs, axes, load_key, felt, moment_felt, force, moment, applied,
+            moment_applied, acted);
   }
   bool hang(JointId joint, collision::BodyId id);
   void unhook(const Hung& hung);
   void pass_what_holds(collision::BodyId id, const Vec3& point, collision::BodyId holder);
+  void feel(Hung& hung, const Vec3& force, const Vec3& moment, double dt);
   void smooth(Hung& hung, const Vec3& force, const Vec3& moment) const;
   void load_by(Hung& hung);
   void load(Hung& hung, const Vec3& force, const Vec3& moment);
-  [[nodiscard]] Utilisation utilisation_of(const Hung& hung, const Vec3& force, const Vec3& moment) const;
+  [[nodiscard]] Utilisation utilisation_of(const Hung& hung) const;
   [[nodiscard]] ContactPlace hold_of(JointId joint, bool member_hangs) const;
 
   Scene& scene_;
@@ -78,9 +83,10 @@ class Hinges {
   RunningSums& sums_;
   Debris& debris_;
   StandingHolds holds_;
-  std::map<std::int64_t, Hung> hinges_;  ///< by hinge
-  std::int64_t last_load_ = 0;           ///< keys of their loads go down from -1
-  bool moves_ = false;                   ///< the world moves: what they took out of bodies since is not accounted yet
+  std::map<std::int64_t, Hung> hinges_;                     ///< by hinge
+  std::vector<std::pair<std::int64_t, Utilisation>> over_;  ///< hinges that bear no more, to be gone
+  std::int64_t last_load_ = 0;                              ///< keys of their loads go down from -1
+  bool moves_ = false;  ///< the world moves: what they took out of bodies since is not accounted yet
 };
 
 }  // namespace topple::structure

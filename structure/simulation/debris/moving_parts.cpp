@@ -14,6 +14,12 @@ std::optional<PartMotion> MovingParts::velocity(collision::ObstacleId id) const 
   return rigid_velocity(frame, part, debris_.obstacles.middle(part));
 }
 
+PartMotion MovingParts::foreseen_acceleration(collision::ObstacleId id) const {
+  const Part part = debris_.obstacles.part_of(id);
+  if (!part.valid()) return hinges_.holds().foreseen_acceleration(id);
+  return structure::foreseen_acceleration(*debris_.scene.frame, part, debris_.obstacles.middle(part));
+}
+
 /// And its mass.
 collision::ObstacleMotion MovingParts::pose_and_mass(collision::ObstacleId id) const {
   const Part part = debris_.obstacles.part_of(id);
@@ -37,8 +43,11 @@ std::optional<collision::ObstacleMotion> MovingParts::motion(collision::Obstacle
   collision::ObstacleMotion motion = pose_and_mass(id);
   motion.velocity = known.velocity.moved;
   motion.angular_velocity = known.velocity.turned;
-  motion.acceleration = known.acceleration.moved;
-  motion.angular_acceleration = known.acceleration.turned;
+  const PartMotion foreseen = foreseen_acceleration(id);
+  motion.acceleration = foreseen.moved;
+  motion.angular_acceleration = foreseen.turned;
+  motion.last_acceleration = known.acceleration.moved;
+  motion.last_angular_acceleration = known.acceleration.turned;
   motion.held_anew = known.held_anew;
   return motion;
 }
@@ -108,6 +117,7 @@ void MovingParts::advance(double dt, std::span<const collision::Contact> contact
     pass_on(one.impulse.dot(before.moved + then.moved) / 2 + one.moment.dot(before.turned + then.turned) / 2);
   }
   known_ = std::move(after);
+  hinges_.break_over();
   substep_.strike(dt);
 }
 

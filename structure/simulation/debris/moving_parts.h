@@ -47,6 +47,7 @@ class MovingParts final : public collision::MovingStructure {
   }
   /// Of a part, or of a place that hinges hold to, that moves.
   [[nodiscard]] std::optional<PartMotion> velocity(collision::ObstacleId obstacle) const;
+  [[nodiscard]] PartMotion foreseen_acceleration(collision::ObstacleId obstacle) const;
   [[nodiscard]] collision::ObstacleMotion pose_and_mass(collision::ObstacleId obstacle) const;
   [[nodiscard]] std::vector<PartingContact> may_part(std::span<const collision::Contact> contacts) const;
   /// By obstacle: those that were asked for since the last substep.

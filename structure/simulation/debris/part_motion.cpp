@@ -64,4 +64,8 @@ PartMotion rigid_velocity(const StandingFrame& frame, Part part, const Vec3& at)
   return nearest(frame, part, at, [&](NodeId node) { return frame.velocity(node); });
 }
 
+PartMotion foreseen_acceleration(StandingFrame& frame, Part part, const Vec3& at) {
+  return nearest(frame, part, at, [&](NodeId node) { return frame.foreseen_acceleration(node); });
+}
+
 }  // namespace topple::structure

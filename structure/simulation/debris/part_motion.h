@@ -20,5 +20,7 @@ void serialize(Archive& archive, PartMotion& motion) {
 [[nodiscard]] PartMotion rigid_displacement(const StandingFrame& frame, Part part, const Vec3& at);
 /// The same of its velocity.
 [[nodiscard]] PartMotion rigid_velocity(const StandingFrame& frame, Part part, const Vec3& at);
+/// And of its acceleration through the next substep (StandingFrame::foreseen_acceleration()).
+[[nodiscard]] PartMotion foreseen_acceleration(StandingFrame& frame, Part part, const Vec3& at);
 
 }  // namespace topple::structure

@@ -53,6 +53,14 @@ std::optional<PartMotion> StandingHolds::velocity(collision::ObstacleId obstacle
   return rigid(scene_.frame->velocity(hold.place.node), hold.place.point - scene_.building[hold.place.node].position);
 }
 
+PartMotion StandingHolds::foreseen_acceleration(collision::ObstacleId obstacle) const {
+  const Hold& hold = holds_.at(obstacle.value);
+  if (!hold.place.node.valid())
+    return structure::foreseen_acceleration(*scene_.frame, Part(hold.place.member), hold.place.point);
+  return rigid(scene_.frame->foreseen_acceleration(hold.place.node),
+               hold.place.point - scene_.building[hold.place.node].position);
+}
+
 collision::ObstacleMotion StandingHolds::motion(collision::ObstacleId obstacle) {
   Hold& hold = holds_.at(obstacle.value);
   const std::uint64_t now = scene_.frame->mobility_changes();
@@ -73,7 +81,7 @@ void StandingHolds::find_mobility(Hold& hold) const {
   const Vec3 arm = hold.place.point - scene_.building[hold.fixed_to].position;
   collision::Mat6 to_place = collision::Mat6::Identity();
   for (int k = 0; k < 3; ++k) to_place.block<3, 1>(0, 3 + k) = Vec3::Unit(k).cross(arm);
-  hold.mobility = to_place * scene_.frame->mobility(hold.fixed_to) * to_place.transpose();
+  hold.mobility = to_place * scene_.frame->substep_mobility(hold.fixed_to) * to_place.transpose();
   const double moves = hold.mobility.diagonal().head<3>().maxCoeff(),
                turns = hold.mobility.diagonal().tail<3>().maxCoeff();
   hold.mobility.diagonal().head<3>().array() += std::max({of_turns * moves, of_other * turns, least});

@@ -23,6 +23,8 @@ class StandingHolds {
   void let_go(collision::ObstacleId obstacle);
   /// Of its place; nothing where it stands still, or for another obstacle.
   [[nodiscard]] std::optional<PartMotion> velocity(collision::ObstacleId obstacle) const;
+  /// m/s2 and rad/s2 of its place through the next substep; of one that moves (StandingFrame::foreseen_acceleration()).
+  [[nodiscard]] PartMotion foreseen_acceleration(collision::ObstacleId obstacle) const;
   /// Where it is, and how it gives way; of one that moves.
   [[nodiscard]] collision::ObstacleMotion motion(collision::ObstacleId obstacle);
   [[nodiscard]] bool any() const { return !holds_.empty(); }

@@ -29,6 +29,8 @@ struct StandingMotion::Moving {
   double left_work = 0;      ///< J, at rest: of loads that have changed since, which the account of rest never sees
   double looked = 0;         ///< s of its motion, when rest was looked for last
   std::vector<double> mass;  ///< per beam, as the frame has it
+  bool yields = false;       ///< a hinge turned in the last substep
+  std::uint64_t yield_changes = 0;  ///< how often `yields` became another
   /// A shell panel that changed since the last substep or impulse.
   struct ChangedShell {
     Eigen::VectorXd motion;    ///< before it changed: PanelSuperelement::motion()
@@ -46,9 +48,10 @@ struct StandingMotion::Moving {
   /// Once the frame is made, which takes the beginning. The law gets its hinges in every substep.
   template <class Archive>
   void serialize(Archive& archive) {
-    auto& [begun, made, by_law, elastic, strain_between, largest_turn, work_of_left, looked_at, masses, shells] = *this;
+    auto& [begun, made, by_law, elastic, strain_between, largest_turn, work_of_left, looked_at, masses, yielding,
+           changed, shells] = *this;
     NestedState state{*made};
-    archive(state, elastic, strain_between, largest_turn, work_of_left, looked_at, masses, shells);
+    archive(state, elastic, strain_between, largest_turn, work_of_left, looked_at, masses, yielding, changed, shells);
   }
 };
 

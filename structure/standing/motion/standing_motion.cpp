@@ -189,14 +189,14 @@ void StandingMotion::stop(int c) {
   past_.struck += own.struck;
   past_.freed += own.freed;
   past_.dissipated += own.dissipated;
-  past_changes_ += moving.frame->counters().changes + 1;
+  past_changes_ += moving.frame->counters().changes + moving.yield_changes + 1;
   from_.statics.follow(c, nullptr);
   moving_.erase(found);
 }
 
 std::uint64_t StandingMotion::changes() const {
   std::uint64_t sum = starts_ + past_changes_;
-  for (const auto& [c, moving] : moving_) sum += moving->frame->counters().changes;
+  for (const auto& [c, moving] : moving_) sum += moving->frame->counters().changes + moving->yield_changes;
   return sum;
 }
 
@@ -242,7 +242,10 @@ std::vector<StandingMotion::Break> StandingMotion::advance(int c) {
           {from_.statics.number(own.member), own.end, hinge.axis, from_.yielding.capacity(hinge), hinge.limit});
   }
   moving.law->set_hinges(std::move(hinges));
+  const std::uint64_t yielded = moving.frame->counters().yielding;
   const std::vector<solver::JointBreak>& broken = moving.frame->advance(moving.law.get());
+  const bool yields = moving.frame->counters().yielding != yielded;
+  if (std::exchange(moving.yields, yields) != yields) ++moving.yield_changes;
   store_plastic_rotations(c, moving);
   std::vector<Break> breaks;
   for (const solver::JointBreak& one : broken) {
@@ -280,6 +283,19 @@ Eigen::MatrixXd StandingMotion::mobility(int c, std::span<const NodalForces> for
   std::vector<std::vector<solver::FrameDynamics::Impulse>> pushes;
   for (const NodalForces& one : forces) pushes.push_back(numbered(from_.statics, one));
   return moving_.at(c)->frame->mobility(pushes);
+}
+
+Eigen::MatrixXd StandingMotion::substep_mobility(int c, std::span<const NodalForces> forces) const {
+  if (moving_.at(c)->yields) return mobility(c, forces);
+  std::vector<std::vector<solver::FrameDynamics::Impulse>> pushes;
+  for (const NodalForces& one : forces) pushes.push_back(numbered(from_.statics, one));
+  return moving_.at(c)->frame->substep_mobility(pushes);
+}
+
+const Vec6& StandingMotion::foreseen_acceleration(NodeId node) {
+  const int c = from_.statics.component(node);
+  pass_on_motion(c);
+  return moving_.at(c)->frame->foresee()[static_cast<std::size_t>(from_.statics.number(node))];
 }
 
 StandingMotion::LocalMotion StandingMotion::local_motion(int c, std::span<const NodalForces> forces) const {

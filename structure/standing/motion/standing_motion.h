@@ -89,6 +89,11 @@ class StandingMotion {
   using NodalForces = std::vector<std::pair<NodeId, Vec6>>;
   /// g_i' M^-1 g_j of forces on one component that moves.
   [[nodiscard]] Eigen::MatrixXd mobility(int component, std::span<const NodalForces> forces) const;
+  /// The same of forces that act through a substep, per length of it (solver::FrameDynamics::substep_mobility()).
+  /// Where something yields, which gives way more, as mobility().
+  [[nodiscard]] Eigen::MatrixXd substep_mobility(int component, std::span<const NodalForces> forces) const;
+  /// Of a node: in the mean through the next substep, if what loads it now goes on to (solver::FrameDynamics::foresee).
+  [[nodiscard]] const Vec6& foreseen_acceleration(NodeId node);
   /// The nodes that forces of one component act on, others held (solver::FrameDynamics::local_modes()), and what joints
   /// at these nodes bear for a unit of each coordinate.
   struct LocalMotion {

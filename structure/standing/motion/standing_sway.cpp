@@ -103,13 +103,19 @@ Vec6 StandingFrame::velocity(NodeId node) const {
   return moves ? state.motion->velocity(node) : Vec6(Vec6::Zero());
 }
 
-Eigen::Matrix<double, 6, 6> StandingFrame::mobility(NodeId node) const {
+Eigen::Matrix<double, 6, 6> StandingFrame::substep_mobility(NodeId node) const {
   const State& state = *state_;
   const int c = state.statics.component(node);
   if (!state.moves(c) || !state.in_solver.holds(node)) return Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<StandingMotion::NodalForces> units;
   for (int i = 0; i < 6; ++i) units.push_back({{node, Vec6::Unit(i)}});
-  return state.motion->mobility(c, units);
+  return state.motion->substep_mobility(c, units);
+}
+
+Vec6 StandingFrame::foreseen_acceleration(NodeId node) {
+  State& state = *state_;
+  const bool moves = state.moves(state.statics.component(node)) && state.in_solver.holds(node);
+  return moves ? state.motion->foreseen_acceleration(node) : Vec6(Vec6::Zero());
 }
 
 FrameEnergy StandingFrame::energy() const {

@@ -145,9 +145,12 @@ struct ObstacleMotion {
   Pose pose;                             ///< now
   Vec3 velocity = Vec3::Zero();          ///< of the pose's position, now, m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< now, rad/s
-  /// m/s2, mean of the part of a step before, with what touched it then: it goes on so while it is touched alike.
+  /// m/s2, mean of the part of a step that begins, if what touched it in the one before goes on to.
   Vec3 acceleration = Vec3::Zero();
   Vec3 angular_acceleration = Vec3::Zero();  ///< rad/s2, as the acceleration
+  /// m/s2, mean of the part of a step before, as it was.
+  Vec3 last_acceleration = Vec3::Zero();
+  Vec3 last_angular_acceleration = Vec3::Zero();  ///< rad/s2, as that
   /// What it has by itself, or less: kg. Where it is touched otherwise than in the part of a step before, it gives way
   /// by no more than a body of that.
   double mass = 0;

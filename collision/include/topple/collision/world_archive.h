@@ -76,8 +76,10 @@ void serialize(Archive& archive, BodyState& of) {
 /// As Pose's.
 template <class Archive>
 void serialize(Archive& archive, ObstacleMotion& of) {
-  auto& [pose, velocity, angular_velocity, acceleration, angular_acceleration, mass, inertia, mobility, held_anew] = of;
-  archive(pose, velocity, angular_velocity, acceleration, angular_acceleration, mass, inertia, mobility, held_anew);
+  auto& [pose, velocity, angular_velocity, acceleration, angular_acceleration, last, angular_last, mass, inertia,
+         mobility, held_anew] = of;
+  archive(pose, velocity, angular_velocity, acceleration, angular_acceleration, last, angular_last, mass, inertia,
+          mobility, held_anew);
 }
 /// As Pose's.
 template <class Archive>

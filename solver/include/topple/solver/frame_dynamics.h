@@ -229,6 +229,13 @@ class FrameDynamics {
   /// velocities_of(f_j), symmetric, as many rows as forces. With damping only what joins them in the factor is gone
   /// through.
   [[nodiscard]] Eigen::MatrixXd mobility(std::span<const std::vector<Impulse>> forces) const;
+  /// The same of forces that act through a substep, per length of it: by how much faster each of their places is at its
+  /// end, with all that resists them meanwhile. What couples with the frame from substep to substep gives way to them
+  /// so (A. Gravouil, A. Combescure, Int. J. Numer. Meth. Eng. 50 (2001), 199).
+  [[nodiscard]] Eigen::MatrixXd substep_mobility(std::span<const std::vector<Impulse>> forces) const;
+  /// Per node: its mean acceleration through the next substep (m/s2 and rad/s2, global axes) if loads go on as they
+  /// are, nothing breaks and nothing yields. What changed since the last substep acts at once, as with strike().
+  [[nodiscard]] const std::vector<Vec6>& foresee();
   /// Of these nodes, with all others held, changes since the last substep apart: K and M as they stand. Freedoms
   /// without mass follow the others.
   [[nodiscard]] LocalModes local_modes(std::span<const int> nodes, std::span<const std::vector<Impulse>> pushes) const;

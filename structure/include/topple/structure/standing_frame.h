@@ -234,7 +234,7 @@ class StandingFrame {
   /// Between two substeps: what changed acts now on what moves, and not with the next substep: it is gone, and its
   /// momentum and mass are with what bears them. What that breaks is told by extract_breaks().
   void take_changes();
-  /// Counts up when mobility() becomes another.
+  /// Counts up when substep_mobility() becomes another.
   [[nodiscard]] std::uint64_t mobility_changes() const;
   /// What broke since it was last told, in order.
   std::vector<JointBreak> extract_breaks();
@@ -247,9 +247,13 @@ class StandingFrame {
   [[nodiscard]] bool moves(const ContactPlace& place) const;
   /// m/s and rad/s, global axes; 0 at rest.
   [[nodiscard]] Vec6 velocity(NodeId node) const;
-  /// Velocity of a node for a unit impulse along and about each global axis (1/kg, 1/(kg m), 1/(kg m2)), before
-  /// anything has moved. Zero at rest.
-  [[nodiscard]] Eigen::Matrix<double, 6, 6> mobility(NodeId node) const;
+  /// By how much faster a node is at the end of a substep for a unit of force along and of moment about each global
+  /// axis through it, per length of it (1/kg, 1/(kg m), 1/(kg m2)). Where something yields, which gives way more: for a
+  /// unit impulse. Zero at rest.
+  [[nodiscard]] Eigen::Matrix<double, 6, 6> substep_mobility(NodeId node) const;
+  /// Of a node in the mean through the next substep, if what loads it now goes on to and nothing breaks: m/s2 and
+  /// rad/s2, global axes; 0 at rest. What changed since the last substep acts at once.
+  [[nodiscard]] Vec6 foreseen_acceleration(NodeId node);
   /// Something has left that extract_detached() has not handed out.
   [[nodiscard]] bool has_detached() const;
   /// How what stands takes unit pushes at places on different parts, each along its direction, that are faster than its
