@@ -63,9 +63,22 @@ struct Impact::Modes {
   }
   /// Of order -1: velocities, 0: coordinates, 1 and 2: their integrals from now.
   [[nodiscard]] Eigen::VectorXd coordinates(double t, int order) const;
-  /// Forces of the places that touch (order 0), their rates (-1) and integrals (1, 2).
+  /// Forces of the places that touch (order 0), their rates (-1) and integrals (1, 2); by how much they are pressed, m.
   [[nodiscard]] Eigen::VectorXd force(double t, int order = 0) const {
     return inverse_root * (shape * coordinates(t, order));
+  }
+  [[nodiscard]] Eigen::VectorXd pressed(double t) const { return root * (shape * coordinates(t, 0)); }
+};
+
+/// All that a swing asks for at one time.
+struct Impact::Sample {
+  double time = 0;
+  Eigen::VectorXd force, rate, pressed;  ///< N, N/s, m
+
+  Sample(const Modes& m, double t) : time(t), rate(m.force(t, -1)) {
+    const Eigen::VectorXd in_modes = m.shape * m.coordinates(t, 0);
+    force = m.inverse_root * in_modes;
+    pressed = m.root * in_modes;
   }
 };
 
@@ -239,23 +252,22 @@ void Impact::advance(const Modes& m, double time) {
   depth_ += speed_ * time + acceleration_ * (time * time / 2) - mobility_ * twice;
   speed_ += acceleration_ * time - mobility_ * impulse;
   // The places that touch by their modes: what cancels there would be lost in the sums above.
-  depth_(m.touching) = unloaded_(m.touching) + m.root * (m.shape * m.coordinates(time, 0));
+  depth_(m.touching) = unloaded_(m.touching) + m.pressed(time);
   impulse_ += impulse;
   time_ += time;
 }
 
 /// The peak of each force between two samples: where its rate passes through zero.
-void Impact::note_peaks(const Modes& m, double from, double to) {
-  const Eigen::VectorXd at_from = m.force(from, -1), at_to = m.force(to, -1), end = m.force(to);
+void Impact::note_peaks(const Modes& m, const Sample& from, const Sample& to) {
   for (std::size_t k = 0; k < m.touching.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     double& peak = peak_(m.touching[k]);
     // What is bound peaks either way.
     for (int sign = 1; sign >= (m.touching[k] < place_count() ? 1 : -1); sign -= 2) {
-      peak = std::max(peak, sign * end(i));
-      if (!(sign * at_from(i) > 0 && sign * at_to(i) < 0)) continue;
-      const double at =
-          passes_zero(from, to, sign * at_from(i), sign * at_to(i), [&](double t) { return sign * m.force(t, -1)(i); });
+      peak = std::max(peak, sign * to.force(i));
+      if (!(sign * from.rate(i) > 0 && sign * to.rate(i) < 0)) continue;
+      const double at = passes_zero(from.time, to.time, sign * from.rate(i), sign * to.rate(i),
+                                    [&](double t) { return sign * m.force(t, -1)(i); });
       peak = std::max(peak, sign * m.force(at)(i));
     }
   }
@@ -284,6 +296,7 @@ bool Impact::fly_to_next_touch() {
 /// Of the places left behind, the largest overlap with the surface as the other forces move it: above zero they touch.
 double Impact::largest_overlap(const Modes& m, double t, Eigen::Index* which) const {
   double most = -never;
+  if (std::find(state_.begin(), state_.end(), Touch::behind) == state_.end()) return most;
   const Eigen::VectorXd force = m.force(t), twice = m.force(t, 2);
   for (const int i : m.apart) {
     if (state_[static_cast<std::size_t>(i)] != Touch::behind) continue;
@@ -311,49 +324,53 @@ Impact::Stop Impact::swing(const Watch& watch, bool by_rates, double deepest, bo
   const Modes m = modes();
   // Places come first among what touches.
   const auto touching = static_cast<Eigen::Index>(m.touching.size()) - bound_;
-  const auto least = [&](double t) { return touching > 0 ? m.force(t).head(touching).minCoeff() : 0.0; };
-  const auto used = [&](double t) {
+  const auto least = [&](const Eigen::VectorXd& force) { return touching > 0 ? force.head(touching).minCoeff() : 0.0; };
+  const auto used = [&](const Eigen::VectorXd& force, const Eigen::VectorXd& rate) {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(depth_.size());
-    all(m.touching) = m.force(t);
+    all(m.touching) = force;
     all.head(place_count()) = all.head(place_count()).cwiseMax(0.0);
     if (!by_rates) return watch(all, all);
-    Eigen::VectorXd rate = Eigen::VectorXd::Zero(depth_.size());
-    rate(m.touching) = m.force(t, -1);
-    return watch(all, rate);
+    Eigen::VectorXd rates = Eigen::VectorXd::Zero(depth_.size());
+    rates(m.touching) = rate;
+    return watch(all, rates);
   };
-  const auto depth = [&](double t) {
-    return touching > 0 ? (m.root * (m.shape * m.coordinates(t, 0))).head(touching).maxCoeff() : 0.0;
+  const auto depth = [&](const Eigen::VectorXd& pressed) {
+    return touching > 0 ? pressed.head(touching).maxCoeff() : 0.0;
   };
   const double step = 2 * pi / m.fastest() / samples_per_period, end = longest_swing(m);
   changed = false;
-  double at = 0;
-  if (watch && used(0) >= 1) return Stop::failed;
+  Sample now(m, 0);
+  if (watch && used(now.force, now.rate) >= 1) return Stop::failed;
   Eigen::Index touched = -1;
-  bool parted = false, failed = false, deep = depth(0) > deepest;
-  while (at < end && !parted && !failed && !deep && touched < 0) {
-    double to = std::min(at + step, end);
-    parted = least(to) < 0;
-    if (parted) to = first_time(at, to, [&](double t) { return least(t) < 0 && t > at; });
-    if (largest_overlap(m, to, nullptr) > 0) {
-      to = first_time(at, to, [&](double t) { return largest_overlap(m, t, nullptr) > 0; });
-      (void)largest_overlap(m, to, &touched);
+  bool parted = false, failed = false, deep = depth(now.pressed) > deepest;
+  while (now.time < end && !parted && !failed && !deep && touched < 0) {
+    const double at = now.time;
+    Sample to(m, std::min(at + step, end));
+    // Back to the first time at which it holds.
+    const auto stop_where = [&](const auto& holds) { to = Sample(m, first_time(at, to.time, holds)); };
+    parted = least(to.force) < 0;
+    if (parted) stop_where([&](double t) { return least(m.force(t)) < 0 && t > at; });
+    if (largest_overlap(m, to.time, nullptr) > 0) {
+      stop_where([&](double t) { return largest_overlap(m, t, nullptr) > 0; });
+      (void)largest_overlap(m, to.time, &touched);
       parted = false;
     }
-    if (watch && used(to) >= 1) {
+    if (watch && used(to.force, to.rate) >= 1) {
       failed = true;
       parted = false;
       touched = -1;
-      to = first_time(at, to, [&](double t) { return used(t) >= 1; });
+      stop_where([&](double t) { return used(m.force(t), by_rates ? m.force(t, -1) : to.rate) >= 1; });
     }
-    if (depth(to) > deepest) {
+    if (depth(to.pressed) > deepest) {
       deep = true;
       parted = failed = false;
       touched = -1;
-      to = first_time(at, to, [&](double t) { return depth(t) > deepest; });
+      stop_where([&](double t) { return depth(m.pressed(t)) > deepest; });
     }
-    note_peaks(m, at, to);
-    at = to;
+    note_peaks(m, now, to);
+    now = std::move(to);
   }
+  const double at = now.time;
   advance(m, at);
   if (failed) return Stop::failed;
   if (deep) return Stop::deep;

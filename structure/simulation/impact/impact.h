@@ -89,6 +89,7 @@ class Impact {
   /// Behind: a break moved it ahead of what pushed it.
   enum class Touch { touching, behind, gone };
   struct Modes;
+  struct Sample;
   [[nodiscard]] Modes modes() const;
   void check() const;
   void advance(const Modes& modes, double time);
@@ -96,8 +97,8 @@ class Impact {
   Stop swing(const Watch& watch, bool by_rates, double deepest, bool& changed);
   Stop push(const Watch& watch, bool by_rates, double deepest);
   [[nodiscard]] double largest_overlap(const Modes& modes, double time, Eigen::Index* which) const;
+  void note_peaks(const Modes& modes, const Sample& from, const Sample& to);
   void part(const Modes& modes, double at, Eigen::Index touching);
-  void note_peaks(const Modes& modes, double from, double to);
   [[nodiscard]] bool any(Touch state) const;  ///< of places
   [[nodiscard]] Eigen::Index place_count() const { return depth_.size() - bound_; }
   [[nodiscard]] double longest_swing(const Modes& modes) const;
