@@ -370,13 +370,11 @@ Impact::Stop Impact::swing(const Watch& watch, bool by_rates, double deepest, bo
     note_peaks(m, now, to);
     now = std::move(to);
   }
-  const double at = now.time;
-  advance(m, at);
-  if (failed) return Stop::failed;
-  if (deep) return Stop::deep;
+  advance(m, now.time);
+  if (failed || deep) return failed ? Stop::failed : Stop::deep;
   changed = parted || touched >= 0;
   if (touched >= 0) state_[static_cast<std::size_t>(touched)] = Touch::touching;
-  if (parted) part(m, at, touching);
+  if (parted) part(m, now.time, touching);
   return Stop::held;
 }
 
