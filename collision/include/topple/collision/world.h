@@ -156,8 +156,8 @@ struct ObstacleMotion {
   double mass = 0;
   Mat3 inertia = Mat3::Zero();  ///< as the mass: kg m2, about the pose's position
   /// Instead of mass and inertia, for what nothing but hinges holds to: how fast it gets, m/s and rad/s, for N s and
-  /// N m s at the pose's position; symmetric, positive definite. That of what gives way along one axis far more than
-  /// along others.
+  /// N m s at the pose's position through a part of a step; symmetric, positive definite. That of what gives way along
+  /// one axis far more than along others.
   std::optional<Mat6> mobility;
   /// Held otherwise than in the part of a step before, as something broke: how it gave way then tells nothing.
   bool held_anew = false;
