@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/index_of.h"
 
@@ -63,6 +64,8 @@ void ChangeFromRest::leave(MemberId member) {
 void ChangeFromRest::leave(NodeId node) {
   sums_.left += work(now_.loads.own(node), rest_.displacement(node), now_.gravity);
   sums_.left.other += now_.loads.event_load(node).dot(rest_.displacement(node));
+  // One that came in this change leaves before it has moved: load_changes(), which that corrects, leaves it out.
+  if (const auto came = came_.find(node); came != came_.end()) sums_.freed += std::exchange(came->second, 0);
 }
 
 /// The part that left keeps the work that its load has done, as a panel that leaves does (settle_panels).
@@ -79,6 +82,7 @@ void ChangeFromRest::add_load(NodeId node, const Vec6& load) {
   const double present = load.dot(rest_.displacement(node));
   sums_.left.other -= present;
   sums_.freed -= present;
+  came_.try_emplace(node, 0).first->second += present;
 }
 
 void ChangeFromRest::turn_gravity(const LoadWork& before, const LoadWork& now) {

@@ -65,14 +65,14 @@ class ChangeFromRest {
 
   template <class Archive>
   void save(Archive& archive) const {
-    const auto& [now, rest, shapes, openings, supports, membranes, softened, member_loads, node_loads, handed, panels,
-                 sums] = *this;
+    const auto& [now, rest, shapes, openings, supports, membranes, softened, member_loads, node_loads, came, handed,
+                 panels, sums] = *this;
     archive(shapes.size());
     for (const auto& [member, shape] : shapes) {
       archive(member);
       shape.write(archive);
     }
-    archive(openings, supports, membranes, softened, member_loads, node_loads, handed, panels, sums);
+    archive(openings, supports, membranes, softened, member_loads, node_loads, came, handed, panels, sums);
   }
   template <class Archive>
   void load(Archive& archive) {
@@ -84,7 +84,7 @@ class ChangeFromRest {
       archive(member);
       shapes_.emplace(member, SolvedMember::make(archive));
     }
-    archive(openings_, supports_, membranes_, softened_, member_loads_, node_loads_, handed_, panels_, sums_);
+    archive(openings_, supports_, membranes_, softened_, member_loads_, node_loads_, came_, handed_, panels_, sums_);
   }
   template <class Archive>
   friend void serialize(Archive& archive, Sums& sums) {
@@ -152,6 +152,7 @@ class ChangeFromRest {
   std::vector<MemberId> softened_;
   std::map<MemberId, std::vector<solver::BeamLoad>> member_loads_;  ///< at rest, of members written anew
   std::map<NodeId, Vec6> node_loads_;
+  std::map<NodeId, double> came_;  ///< J: of loads that came in this change, as if they had been there at rest
   std::map<PanelId, TributaryLoads> handed_;  ///< by panels that hand on otherwise now
   std::map<PanelId, PanelAtRest> panels_;
   Sums sums_;
