@@ -124,7 +124,7 @@ void MovingObstacles::add(DebrisObstacle& one, StepSolver& solver, double dt, do
   SolverBody moving;
   moving.at.position = one.pose.position;
   if (one.motion.mobility) {
-    one.root_mobility = (one.gives_way * *one.motion.mobility).llt().matrixL();
+    one.root_mobility = one.motion.mobility->llt().matrixL();  // it tells it by itself: `gives_way` is 1
     moving.root_mobility = &one.root_mobility;
     moving.at.turn.setIdentity();
   } else {

@@ -79,6 +79,8 @@ struct FrameDynamics::State {
 
   // momentum.cpp
   [[nodiscard]] Eigen::VectorXd scaled_impulses(std::span<const Impulse> impulses) const;
+  /// A column for each.
+  [[nodiscard]] Eigen::MatrixXd scaled_columns(std::span<const std::vector<Impulse>> forces) const;
   void follow_jump(const Eigen::VectorXd& change);
 
   // substep.cpp

@@ -18,6 +18,12 @@ Eigen::VectorXd FrameDynamics::State::scaled_impulses(std::span<const Impulse> i
   return scaled_force(system(), force);
 }
 
+Eigen::MatrixXd FrameDynamics::State::scaled_columns(std::span<const std::vector<Impulse>> forces) const {
+  Eigen::MatrixXd F(equations(), static_cast<Eigen::Index>(forces.size()));
+  for (std::size_t j = 0; j < forces.size(); ++j) F.col(static_cast<Eigen::Index>(j)) = scaled_impulses(forces[j]);
+  return F;
+}
+
 /// Damping answers a jump of velocities at once: accelerations that did not would make the method create energy in
 /// modes that it does not resolve. Implicit, as velocities that follow impulses: the acceleration itself would throw a
 /// mode that is damped within much less than a substep far beyond its place.
@@ -44,19 +50,13 @@ std::vector<Vec6> FrameDynamics::velocities_of(std::span<const Impulse> impulses
 
 Eigen::MatrixXd FrameDynamics::mobility(std::span<const std::vector<Impulse>> forces) const {
   const State& state = *state_;
-  Eigen::MatrixXd F(state.equations(), static_cast<Eigen::Index>(forces.size()));
-  for (std::size_t j = 0; j < forces.size(); ++j)
-    F.col(static_cast<Eigen::Index>(j)) = state.scaled_impulses(forces[j]);
-  const Eigen::MatrixXd result = state.jumps->mobility(state.system(), F);
+  const Eigen::MatrixXd result = state.jumps->mobility(state.system(), state.scaled_columns(forces));
   return (result + result.transpose()) / 2;
 }
 
 Eigen::MatrixXd FrameDynamics::substep_mobility(std::span<const std::vector<Impulse>> forces) const {
   State& state = *state_;
-  Eigen::MatrixXd F(state.equations(), static_cast<Eigen::Index>(forces.size()));
-  for (std::size_t j = 0; j < forces.size(); ++j)
-    F.col(static_cast<Eigen::Index>(j)) = state.scaled_impulses(forces[j]);
-  const Eigen::MatrixXd result = state.core().answers_between(F, F);
+  const Eigen::MatrixXd F = state.scaled_columns(forces), result = state.core().answers_between(F, F);
   return state.method.gamma / (2 * state.method.c) * (result + result.transpose());
 }
 

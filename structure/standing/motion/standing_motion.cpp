@@ -18,6 +18,13 @@ std::vector<solver::FrameDynamics::Impulse> numbered(const FrameStatics& statics
   return impulses;
 }
 
+std::vector<std::vector<solver::FrameDynamics::Impulse>> numbered(const FrameStatics& statics,
+                                                                  std::span<const StandingMotion::NodalForces> forces) {
+  std::vector<std::vector<solver::FrameDynamics::Impulse>> pushes;
+  for (const StandingMotion::NodalForces& one : forces) pushes.push_back(numbered(statics, one));
+  return pushes;
+}
+
 }  // namespace
 
 StandingMotion::StandingMotion(const MotionSources& sources, const MotionSettings& settings)
@@ -280,16 +287,12 @@ std::array<Vec6, 4> StandingMotion::corner_forces(PanelId membrane) const {
 }
 
 Eigen::MatrixXd StandingMotion::mobility(int c, std::span<const NodalForces> forces) const {
-  std::vector<std::vector<solver::FrameDynamics::Impulse>> pushes;
-  for (const NodalForces& one : forces) pushes.push_back(numbered(from_.statics, one));
-  return moving_.at(c)->frame->mobility(pushes);
+  return moving_.at(c)->frame->mobility(numbered(from_.statics, forces));
 }
 
 Eigen::MatrixXd StandingMotion::substep_mobility(int c, std::span<const NodalForces> forces) const {
   if (moving_.at(c)->yields) return mobility(c, forces);
-  std::vector<std::vector<solver::FrameDynamics::Impulse>> pushes;
-  for (const NodalForces& one : forces) pushes.push_back(numbered(from_.statics, one));
-  return moving_.at(c)->frame->substep_mobility(pushes);
+  return moving_.at(c)->frame->substep_mobility(numbered(from_.statics, forces));
 }
 
 const Vec6& StandingMotion::foreseen_acceleration(NodeId node) {

@@ -6,20 +6,13 @@
 #include <cmath>
 
 #include "simulation/impact/impact_settings.h"
+#include "structure/landing_blow.h"
 
 using namespace topple::structure;
+using namespace topple::test;
 namespace collision = topple::collision;
 
 namespace {
-
-constexpr double weight = 1e4, blow = 1e6;                          // N
-constexpr double lands_at = 0.021, taken_within = 4e-3, end = 0.5;  // s
-
-/// N s by then: a blow, then its weight.
-double impulse_until(double time) {
-  const double since = std::max(0.0, time - lands_at);
-  return blow * std::min(since, taken_within) + weight * std::max(0.0, since - taken_within);
-}
 
 ContactRecord on_ground(collision::BodyId body, std::int64_t part, double impulse) {
   ContactRecord contact;

@@ -17,6 +17,22 @@ double imbalance(const FrameEnergy& e) {
   return std::abs(e.elastic - e.elastic_at_start - e.gravity_work - e.other_work - e.contact_work + e.freed) / scale;
 }
 
+/// It bears 1e4 N and 1e4 N m, and a small load at its tip.
+struct WeakCantilever {
+  static constexpr double length = 4;
+  FrameBuilder frame;
+  NodeId tip;
+  MemberId beam;
+
+  WeakCantilever() {
+    const NodeId foot = frame.node("A", 0, 0, 3);
+    tip = frame.node("B", length, 0, 3);
+    beam = frame.member("AB", MemberKind::beam, foot, tip, same_capacity(1e4));
+    frame.support(foot);
+    frame.load(tip, (Vec6() << 0, 0, -200, 0, 0, 0).finished());
+  }
+};
+
 }  // namespace
 
 TEST_CASE("a built-in beam that becomes a cantilever frees the difference of its energies") {
@@ -46,17 +62,12 @@ TEST_CASE("a built-in beam that becomes a cantilever frees the difference of its
 }
 
 TEST_CASE("a weight that a cantilever cannot bear leaves no energy of a state that is never reached") {
-  const double length = 4;
-  FrameBuilder frame;
-  const NodeId a = frame.node("A", 0, 0, 3), b = frame.node("B", length, 0, 3);
-  const MemberId beam = frame.member("AB", MemberKind::beam, a, b, same_capacity(1e4));
-  frame.support(a);
-  frame.load(b, (Vec6() << 0, 0, -200, 0, 0, 0).finished());
-  StandingFrame standing(frame.building, CombinationId(0u), unbraced_rules());
+  const WeakCantilever of;
+  StandingFrame standing(of.frame.building, CombinationId(0u), unbraced_rules());
   const double elastic = standing.elastic_energy();
-  standing.set_contact_load({1, {beam, {}, Vec3(length, 0, 3)}, Vec3(0, 0, -1e9)});  // 1e5 times what it bears
+  standing.set_contact_load({1, {of.beam, {}, Vec3(of.length, 0, 3)}, Vec3(0, 0, -1e9)});  // 1e5 times what it bears
   REQUIRE(standing.settle(10).size() == 1);
-  CHECK_FALSE(standing.stands(beam));
+  CHECK_FALSE(standing.stands(of.beam));
   const FrameEnergy energy = standing.energy();
   CHECK(energy.elastic == 0);
   CHECK(energy.contact_work == 0);  // it left before that load had moved
@@ -64,18 +75,15 @@ TEST_CASE("a weight that a cantilever cannot bear leaves no energy of a state th
 }
 
 TEST_CASE("a load of an event that a cantilever cannot bear leaves with it, and has done no work") {
-  const double length = 4, sign = GENERATE(1, -1);
-  FrameBuilder frame;
-  const NodeId a = frame.node("A", 0, 0, 3), b = frame.node("B", length, 0, 3);
-  const MemberId beam = frame.member("AB", MemberKind::beam, a, b, same_capacity(1e4));
-  frame.support(a);
-  frame.load(b, (Vec6() << 0, 0, -200, 0, 0, 0).finished());
-  StandingFrame standing(frame.building, CombinationId(0u), unbraced_rules());
+  const double sign = GENERATE(1, -1);
+  const WeakCantilever of;
+  StandingFrame standing(of.frame.building, CombinationId(0u), unbraced_rules());
   const double elastic = standing.elastic_energy();
-  standing.add_load(b, (Vec6() << 0, 0, sign * 1e6, 0, 0, 0).finished());  // its sag times that: 2500 times `elastic`
-  standing.add_load(b, (Vec6() << 0, 0, sign * 1e6, 0, 0, 0).finished());
+  standing.add_load(of.tip,
+                    (Vec6() << 0, 0, sign * 1e6, 0, 0, 0).finished());  // its sag times that: 2500 times `elastic`
+  standing.add_load(of.tip, (Vec6() << 0, 0, sign * 1e6, 0, 0, 0).finished());
   REQUIRE(standing.settle(10).size() == 1);
-  CHECK_FALSE(standing.stands(beam));
+  CHECK_FALSE(standing.stands(of.beam));
   CHECK(standing.energy().other_work == Approx(0).margin(1e-9 * elastic));
   CHECK(standing.energy().freed == Approx(elastic).epsilon(1e-9));
 }
