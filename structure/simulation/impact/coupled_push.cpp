@@ -11,6 +11,7 @@
 namespace topple::structure {
 
 namespace {
+using shared_push::first_time;
 using shared_push::free_motion;
 using shared_push::no_force;
 using shared_push::passes_zero;
@@ -194,13 +195,6 @@ CoupledPush::Stop CoupledPush::push(const Utilisation& utilisation) {
       return value;
     };
     const auto used = [&](double t) { return utilisation ? utilisation(force(t).cwiseMax(0.0)) : 0.0; };
-    const auto first = [](double from, double to, const auto& passed) {  // the first time at which `passed` holds
-      for (int k = 0; k < 100 && to - from > 1e-15 * to; ++k) {
-        const double middle = from + (to - from) / 2;
-        (passed(middle) ? to : from) = middle;
-      }
-      return to;
-    };
     double slowest = unlimited, fastest = 0;
     for (int i = 0; i < 6; ++i) {
       if (modes.squared(i) == 0) continue;
@@ -215,10 +209,10 @@ CoupledPush::Stop CoupledPush::push(const Utilisation& utilisation) {
       // At touch every force is zero, and grows.
       double to = next;
       parted = least(next) < 0;
-      if (parted) to = first(at, next, [&](double t) { return least(t) < 0 && t > at; });
+      if (parted) to = first_time(at, next, [&](double t) { return least(t) < 0 && t > at; });
       if (used(to) >= 1) {
         failed = true;
-        to = first(at, to, [&](double t) { return used(t) >= 1; });
+        to = first_time(at, to, [&](double t) { return used(t) >= 1; });
       }
       note_peaks(modes, at, to);
       note_most_stored(modes, at, to);

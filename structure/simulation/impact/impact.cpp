@@ -13,6 +13,7 @@ namespace topple::structure {
 
 namespace {
 
+using shared_push::first_time;
 using shared_push::free_motion;
 using shared_push::no_force;
 using shared_push::passes_zero;
@@ -22,16 +23,6 @@ using shared_push::samples_per_period;
 /// with nothing moving behind the place, is left to the motion of what stands.
 constexpr double most_periods = 4;
 constexpr double never = std::numeric_limits<double>::infinity();
-
-/// The first time in (from, to] at which `passed` holds, which it does at `to`.
-template <typename Passed>
-double first_time(double from, double to, const Passed& passed) {
-  for (int k = 0; k < 100 && to - from > 1e-15 * to; ++k) {
-    const double middle = from + (to - from) / 2;
-    (passed(middle) ? to : from) = middle;
-  }
-  return to;
-}
 
 /// Least t > 0 with gap + speed t + acceleration t^2/2 = 0 on the way up, gap below zero; `never` when there is none.
 double closes_after(double gap, double speed, double acceleration) {
@@ -48,26 +39,27 @@ double closes_after(double gap, double speed, double acceleration) {
 /// The places that touch in modal coordinates, from now on.
 struct Impact::Modes {
   std::vector<int> touching, apart;
-  Eigen::MatrixXd root;          ///< C^1/2 of the places that touch
-  Eigen::MatrixXd inverse_root;  ///< its inverse
-  Eigen::MatrixXd shape;         ///< eigenvectors of C^-1/2 L C^-1/2
-  Eigen::VectorXd squared;       ///< circular frequencies squared
+  Eigen::MatrixXd forces;     ///< of the places that touch, by unit coordinates, N
+  Eigen::MatrixXd pressed;    ///< by how much they are pressed likewise, m
+  Eigen::VectorXd frequency;  ///< circular, 1/s; 0: a free motion
   Eigen::VectorXd place, speed, push;
+  Eigen::VectorXd rest;  ///< where it swings about
 
-  [[nodiscard]] double fastest() const { return std::sqrt(squared.maxCoeff()); }
+  [[nodiscard]] double fastest() const { return frequency.maxCoeff(); }
   [[nodiscard]] double slowest() const {
-    double least = squared.maxCoeff();
-    for (const double one : squared)
+    double least = fastest();
+    for (const double one : frequency)
       if (one > 0) least = std::min(least, one);
-    return std::sqrt(least);
+    return least;
   }
   /// Of order -1: velocities, 0: coordinates, 1 and 2: their integrals from now.
   [[nodiscard]] Eigen::VectorXd coordinates(double t, int order) const;
-  /// Forces of the places that touch (order 0), their rates (-1) and integrals (1, 2); by how much they are pressed, m.
-  [[nodiscard]] Eigen::VectorXd force(double t, int order = 0) const {
-    return inverse_root * (shape * coordinates(t, order));
+  /// Forces of the places that touch (order 0), their rates (-1) and integrals (1, 2).
+  [[nodiscard]] Eigen::VectorXd force(double t, int order = 0) const { return forces * coordinates(t, order); }
+  [[nodiscard]] double force_of(Eigen::Index i, double t, int order) const {
+    return forces.row(i).dot(coordinates(t, order));
   }
-  [[nodiscard]] Eigen::VectorXd pressed(double t) const { return root * (shape * coordinates(t, 0)); }
+  [[nodiscard]] Eigen::VectorXd pressed_at(double t) const { return pressed * coordinates(t, 0); }
 };
 
 /// All that a swing asks for at one time.
@@ -76,28 +68,28 @@ struct Impact::Sample {
   Eigen::VectorXd force, rate, pressed;  ///< N, N/s, m
 
   Sample(const Modes& m, double t) : time(t), rate(m.force(t, -1)) {
-    const Eigen::VectorXd in_modes = m.shape * m.coordinates(t, 0);
-    force = m.inverse_root * in_modes;
-    pressed = m.root * in_modes;
+    const Eigen::VectorXd in_modes = m.coordinates(t, 0);
+    force = m.forces * in_modes;
+    pressed = m.pressed * in_modes;
   }
 };
 
 Eigen::VectorXd Impact::Modes::coordinates(double t, int order) const {
   Eigen::VectorXd at(place.size());
   for (Eigen::Index i = 0; i < at.size(); ++i) {
-    const double q = place(i), v = speed(i), p = push(i);
-    if (squared(i) == 0) {
+    const double q = place(i), v = speed(i), p = push(i), w = frequency(i), r = rest(i);
+    if (w == 0) {
       at(i) = order == -1  ? v + p * t
               : order == 0 ? q + v * t + p * t * t / 2
               : order == 1 ? q * t + v * t * t / 2 + p * t * t * t / 6
                            : q * t * t / 2 + v * t * t * t / 6 + p * t * t * t * t / 24;
       continue;
     }
-    const double w = std::sqrt(squared(i)), rest = p / squared(i), c = std::cos(w * t), s = std::sin(w * t);
-    at(i) = order == -1  ? (rest - q) * w * s + v * c
-            : order == 0 ? rest + (q - rest) * c + v / w * s
-            : order == 1 ? rest * t + (q - rest) * s / w + v / (w * w) * (1 - c)
-                         : rest * t * t / 2 + (q - rest) * (1 - c) / (w * w) + v / (w * w) * (t - s / w);
+    const double c = std::cos(w * t), s = std::sin(w * t);
+    at(i) = order == -1  ? (r - q) * w * s + v * c
+            : order == 0 ? r + (q - r) * c + v / w * s
+            : order == 1 ? r * t + (q - r) * s / w + v / (w * w) * (1 - c)
+                         : r * t * t / 2 + (q - r) * (1 - c) / (w * w) + v / (w * w) * (t - s / w);
   }
   return at;
 }
@@ -188,20 +180,26 @@ Impact::Modes Impact::modes() const {
   for (std::size_t i = 0; i < state_.size(); ++i)
     (state_[i] == Touch::touching ? m.touching : m.apart).push_back(static_cast<int>(i));
   const Eigen::MatrixXd C = compliance_(m.touching, m.touching), L = mobility_(m.touching, m.touching);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> roots(C);
-  m.root = roots.operatorSqrt();
-  m.inverse_root = roots.operatorInverseSqrt();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m.inverse_root * L * m.inverse_root);
-  m.shape = eigen.eigenvectors();
-  m.squared = eigen.eigenvalues();
-  const double least = free_motion * m.squared.maxCoeff();
-  for (double& one : m.squared)
-    if (one <= least) one = 0;
-  const Eigen::MatrixXd to_modes = m.shape.transpose() * m.inverse_root;
+  // With C = G G' and y = G^-1 d: y'' = G^-1 a - (G^-1 L G^-T) y, f = G^-T y.
+  const Eigen::LLT<Eigen::MatrixXd> factor(C);
+  const auto root = factor.matrixL();
+  Eigen::MatrixXd scaled = root.solve(L);
+  scaled = root.solve(scaled.transpose().eval());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  m.pressed = root * eigen.eigenvectors();
+  m.forces = factor.matrixU().solve(eigen.eigenvectors());
+  m.frequency = eigen.eigenvalues();
+  const double least = free_motion * m.frequency.maxCoeff();
   const Eigen::VectorXd pressed = depth_ - unloaded_;
-  m.place = to_modes * pressed(m.touching);
-  m.speed = to_modes * speed_(m.touching);
-  m.push = to_modes * acceleration_(m.touching);
+  m.place = m.forces.transpose() * pressed(m.touching);
+  m.speed = m.forces.transpose() * speed_(m.touching);
+  m.push = m.forces.transpose() * acceleration_(m.touching);
+  m.rest = Eigen::VectorXd::Zero(m.push.size());
+  for (Eigen::Index i = 0; i < m.frequency.size(); ++i) {
+    double& one = m.frequency(i);
+    if (one > least) m.rest(i) = m.push(i) / one;
+    one = one > least ? std::sqrt(one) : 0;
+  }
   return m;
 }
 
@@ -252,7 +250,7 @@ void Impact::advance(const Modes& m, double time) {
   depth_ += speed_ * time + acceleration_ * (time * time / 2) - mobility_ * twice;
   speed_ += acceleration_ * time - mobility_ * impulse;
   // The places that touch by their modes: what cancels there would be lost in the sums above.
-  depth_(m.touching) = unloaded_(m.touching) + m.pressed(time);
+  depth_(m.touching) = unloaded_(m.touching) + m.pressed_at(time);
   impulse_ += impulse;
   time_ += time;
 }
@@ -267,8 +265,8 @@ void Impact::note_peaks(const Modes& m, const Sample& from, const Sample& to) {
       peak = std::max(peak, sign * to.force(i));
       if (!(sign * from.rate(i) > 0 && sign * to.rate(i) < 0)) continue;
       const double at = passes_zero(from.time, to.time, sign * from.rate(i), sign * to.rate(i),
-                                    [&](double t) { return sign * m.force(t, -1)(i); });
-      peak = std::max(peak, sign * m.force(at)(i));
+                                    [&](double t) { return sign * m.force_of(i, t, -1); });
+      peak = std::max(peak, sign * m.force_of(i, at, 0));
     }
   }
 }
@@ -365,7 +363,7 @@ Impact::Stop Impact::swing(const Watch& watch, bool by_rates, double deepest, bo
       deep = true;
       parted = failed = false;
       touched = -1;
-      stop_where([&](double t) { return depth(m.pressed(t)) > deepest; });
+      stop_where([&](double t) { return depth(m.pressed_at(t)) > deepest; });
     }
     note_peaks(m, now, to);
     now = std::move(to);

@@ -7,8 +7,8 @@
 // of J M^-1 J' of both sides; a side that cannot move brings none),
 //   d'' = a - L f,   f = C^-1 (d - D) over the places that touch, zero elsewhere,   d = 0 and d' = v at first touch,
 // a being the relative acceleration without contacts (gravity against something that stands; nothing between two free
-// bodies) and D how far breaks have moved the unloaded places. The modes of C^-1/2 L C^-1/2 give d, f and the impulses
-// at any time. For one place with m = 1/L, k = 1/C, w = m a this is
+// bodies) and D how far breaks have moved the unloaded places. With C = G G' the modes of G^-1 L G^-T give d, f and the
+// impulses at any time. For one place with m = 1/L, k = 1/C, w = m a this is
 //   peak, if nothing breaks      F = w + sqrt(w^2 + k m v^2)        (a weight laid down: 2 w)
 //   speed when a joint fails     v'^2 = v^2 - (F^2 - 2 w F)/(k m).
 // A place whose force comes to zero has let go. One that a break has left behind is met again when d reaches D and what

@@ -28,4 +28,14 @@ double passes_zero(double from, double to, double at_from, double at_to, const R
   return from + (to - from) / 2;
 }
 
+/// The first time in (from, to] at which `passed` holds, which it does at `to`.
+template <typename Passed>
+double first_time(double from, double to, const Passed& passed) {
+  for (int k = 0; k < 100 && to - from > 1e-15 * to; ++k) {
+    const double middle = from + (to - from) / 2;
+    (passed(middle) ? to : from) = middle;
+  }
+  return to;
+}
+
 }  // namespace topple::structure::shared_push
