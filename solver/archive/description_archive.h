@@ -97,8 +97,8 @@ void serialize(Archive& archive, DynamicEnergy& energy) {
 }
 template <class Archive>
 void serialize(Archive& archive, DynamicCounters& counters) {
-  auto& [substeps, retaken, breaks, yielding, changes, unsettled] = counters;
-  archive(substeps, retaken, breaks, yielding, changes, unsettled);
+  auto& [substeps, divided, retaken, breaks, yielding, changes, unsettled] = counters;
+  archive(substeps, divided, retaken, breaks, yielding, changes, unsettled);
 }
 template <class Archive>
 void serialize(Archive& archive, JointBreak& broken) {

@@ -110,6 +110,16 @@ RecentLoads::Held FrameDynamics::State::held(int beam) const {
   return held;
 }
 
+bool FrameDynamics::State::any_crosses(const JointLaw& law) {
+  evaluate_end();
+  for (int beam = 0; beam < static_cast<int>(system().model.beams.size()); ++beam)
+    if (system().beam_stands[static_cast<std::size_t>(beam)] != 0 &&
+        law.beam_utilisation(beam, end_forces(beam, true)) > 1)
+      return true;
+  const std::span<const PlasticHinge> hinges = law.plastic_hinges();
+  return std::any_of(hinges.begin(), hinges.end(), [&](const PlasticHinge& hinge) { return turned_out_at(hinge); });
+}
+
 bool FrameDynamics::State::break_joints(const JointLaw& law) {
   evaluate_end();
   struct Crossing {

@@ -24,6 +24,13 @@ Vec6 resultant(const BeamLoad& load) {
   return sum;
 }
 
+/// In this time.
+Vec12 impulse_of(const std::vector<BeamLoad>& loads, double time) {
+  Vec12 impulse = Vec12::Zero();
+  for (const BeamLoad& load : loads) impulse.head<6>() += time * resultant(load);
+  return impulse;
+}
+
 /// Momentum of a beam that its nodes' velocities leave out now (local node impulses), since its ends followed them
 /// otherwise.
 Vec12 missing_momentum(const FrameSystem& system, const MassModel& masses, int beam, const Mat12& followed,
@@ -39,6 +46,21 @@ Vec12 missing_momentum(const FrameSystem& system, const MassModel& masses, int b
 }  // namespace
 
 void ChangedMomentum::begin_substep() {
+  broken_.clear();
+  changed_.clear();
+  fixed_end_.clear();
+  left_.clear();
+}
+
+void ChangedMomentum::begin_part(const FrameSystem& system, const RequestedChanges& changes, double h, int left) {
+  for (const ChangedBeam& one : changed_) {
+    const auto i = static_cast<std::size_t>(one.beam);
+    const auto& held = system.model.beams[i].end_stiffness;
+    if (left_.contains(one.beam) || (system.beam_stands[i] != 0 && !(held[0].isZero(0) && held[1].isZero(0)))) continue;
+    const std::vector<BeamLoad>& loads = changes.beam(i).loads;
+    left_[one.beam] = *left_with(system, one.beam, loads, h) +
+                      about_origin(system, one.beam, impulse_of(loads, h * static_cast<double>(left)));
+  }
   broken_.clear();
   changed_.clear();
   fixed_end_.clear();
@@ -80,12 +102,12 @@ Vec12 ChangedMomentum::fixed_end(int beam) const {
 /// Its joints' forces until they broke pushed it the other way, and its loads went on.
 std::optional<Vec6> ChangedMomentum::left_with(const FrameSystem& system, int beam, const std::vector<BeamLoad>& loads,
                                                double h) const {
+  if (const auto before = left_.find(beam); before != left_.end()) return before->second;
   const auto gone = std::find_if(changed_.begin(), changed_.end(), [&](const auto& c) { return c.beam == beam; });
   if (gone == changed_.end()) return std::nullopt;
-  Vec12 impulse = Vec12::Zero();
+  Vec12 impulse = impulse_of(loads, h);
   for (const BrokenJoint& joint : broken_)
     if (joint.beam == beam) impulse.segment<6>(static_cast<Eigen::Index>(6 * joint.end)) += h * joint.mean_force;
-  for (const BeamLoad& load : loads) impulse.head<6>() += h * resultant(load);
   return gone->momentum + about_origin(system, beam, impulse);
 }
 

@@ -20,6 +20,8 @@ class ChangedMomentum {
   /// velocities (scaled equations), and the beams' momentum.
   void remember(const FrameSystem& system, const SystemInertia& inertia, const RequestedChanges& changes,
                 const Eigen::VectorXd& velocities);
+  /// The next part of a substep begins, of the length h; as many are left. What has left by now goes on with its loads.
+  void begin_part(const FrameSystem& system, const RequestedChanges& changes, double h, int left);
   /// The joint broke; until then its force acted: its mean over the substep, local.
   void break_joint(int beam, std::size_t end, const Vec6& mean_force);
   /// FrameDynamics::add_momentum().
@@ -41,8 +43,8 @@ class ChangedMomentum {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    auto& [broken, changed, brought, fixed_end] = *this;
-    archive(broken, changed, brought, fixed_end);
+    auto& [broken, changed, brought, fixed_end, left] = *this;
+    archive(broken, changed, brought, fixed_end, left);
   }
 
  private:
@@ -72,6 +74,7 @@ class ChangedMomentum {
   std::vector<ChangedBeam> changed_;
   std::map<int, Vec6> brought_;     ///< per beam
   std::map<int, Vec12> fixed_end_;  ///< of beams that bear the force of their broken end in this substep, local
+  std::map<int, Vec6> left_;        ///< with which beams left in an earlier part of the substep, at its end
 };
 
 }  // namespace topple::solver

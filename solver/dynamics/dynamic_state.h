@@ -24,11 +24,13 @@
 namespace topple::solver {
 
 struct FrameDynamics::State {
-  struct ImpulseFactor;
+  struct FollowingFactor;
   class Jumps;
+  class ShorterSubsteps;
 
-  DynamicOptions options;  ///< with the wave times of all beams
-  GeneralizedAlpha method;
+  DynamicOptions options;          ///< with the wave times of all beams
+  GeneralizedAlpha whole, method;  ///< of undivided substeps, whose matrix the frame has; of the next one
+  int parts = 1;                   ///< that a substep is divided into
   SystemInertia inertia;
   Reanalysis frame;
   LoadPatterns patterns;
@@ -48,6 +50,7 @@ struct FrameDynamics::State {
   ChangedMomentum changed;
   std::vector<FrameDynamics::Impulse> waiting;  ///< for the next substep, or the next strike()
   std::unique_ptr<Jumps> jumps;
+  std::unique_ptr<ShorterSubsteps> shorter;
   bool prepared = false;
   DynamicCounters counters;
   std::vector<JointBreak> breaks;
@@ -62,7 +65,7 @@ struct FrameDynamics::State {
   [[nodiscard]] const MotionState& current() const { return before; }
   /// d a1, s2: what damping of stiffness takes of an impulse, which lasts for d.
   [[nodiscard]] double damped_in_impulse() const {
-    return std::max(method.h, options.shortest_impulse) * options.damping.stiffness;
+    return std::max(whole.h, options.shortest_impulse) * options.damping.stiffness;
   }
 
   // structural_change.cpp
@@ -77,6 +80,19 @@ struct FrameDynamics::State {
   /// The motion at the start of the next substep is another one, or what it is read with.
   void forget_motion();
 
+  // substep_parts.cpp
+  /// A substep as a whole where that is near enough, else in parts.
+  void advance_as_needed(const JointLaw& law);
+  /// DynamicOptions::largest_error, of the substep that was tried.
+  [[nodiscard]] double substep_error(const JointLaw& law);
+  [[nodiscard]] int parts_for(double error) const;
+  /// The substep that was tried did not happen.
+  void put_off();
+  void divide_substep(int into);
+  /// Of a divided substep, not the first; as many are left, this one included.
+  void begin_part(int left);
+  void require_undivided() const;
+
   // momentum.cpp
   [[nodiscard]] Eigen::VectorXd scaled_impulses(std::span<const Impulse> impulses) const;
   /// A column for each.
@@ -84,12 +100,16 @@ struct FrameDynamics::State {
   void follow_jump(const Eigen::VectorXd& change);
 
   // substep.cpp
+  /// What breaks in the substep that was tried breaks, and it is accepted.
+  void break_all(const JointLaw* law);
   /// To its end, with what yields, joints that break apart.
   void advance_substep(const JointLaw* law);
   void advance_first_order(const JointLaw* law);
   /// Of the substep that begins now: its equation, solved, while nothing yields.
   void solve_elastic();
   void foresee();
+  /// x := (K + s M)^-1 x, of the substep under way.
+  void solve_substep(Eigen::VectorXd& x);
   void find_end();
   void accept();
   void account_energy();
@@ -114,6 +134,8 @@ struct FrameDynamics::State {
   void advance_second_order(const JointLaw* law);
 
   // break_rule.cpp
+  /// A joint comes to its capacity in the substep under way, or turns too far.
+  [[nodiscard]] bool any_crosses(const JointLaw& law);
   [[nodiscard]] bool break_joints(const JointLaw& law);
   void record_break(const JointBreak& broken, double share, const SubstepCourse<Vec12>& course);
   [[nodiscard]] RecentLoads::Held held(int beam) const;

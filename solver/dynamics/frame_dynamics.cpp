@@ -10,8 +10,9 @@
 #include "assembly/mass_matrix.h"
 #include "assembly/scaled_equations.h"
 #include "dynamics/dynamic_state.h"
-#include "dynamics/impulse_factor.h"
+#include "dynamics/following_factor.h"
 #include "dynamics/jumps.h"
+#include "dynamics/shorter_substeps.h"
 
 namespace topple::solver {
 namespace {
@@ -49,18 +50,27 @@ RayleighDamping rayleigh_damping(double ratio, double first, double second) {
 
 FrameDynamics::State::State(FrameModel model, MassModel masses, DynamicOptions given)
     : options(std::move(given)),
-      method(options.substep, options.spectral_radius, options.damping.stiffness),
-      inertia{checked(masses), masses_at_nodes(model, masses), method.s},
+      whole(options.substep, options.spectral_radius, options.damping.stiffness),
+      method(whole),
+      inertia{checked(masses), masses_at_nodes(model, masses), whole.s},
       frame(std::move(model), options.analysis),
       recent_loads(times_of_beams(frame.model(), options.beams_vibrate)),
       started_at(frame.model().nodes.size(), Vec6::Zero()),
       nodes(frame.model().nodes.size()),
-      jumps(std::make_unique<Jumps>(options.analysis, damped_in_impulse())) {
+      jumps(std::make_unique<Jumps>(options.analysis, damped_in_impulse())),
+      shorter(std::make_unique<ShorterSubsteps>(options.analysis)) {
   options.wave_times = wave_times_of(frame.model(), options.wave_times);
   if (!(options.damping.mass >= 0)) throw std::invalid_argument("damping must not be negative");
   if (!(options.shortest_impulse >= 0) || !std::isfinite(options.shortest_impulse))
     throw std::invalid_argument("an impulse must last for 0 s or longer");
+  if (!(options.largest_error > 0)) throw std::invalid_argument("the largest error of a substep must be above 0");
+  if (options.most_parts < 1) throw std::invalid_argument("a substep has one part or more");
   core().system->inertia = &inertia;
+}
+
+void FrameDynamics::State::require_undivided() const {
+  if (options.most_parts > 1)
+    throw std::invalid_argument("loads that go with time act on frames whose substeps are not divided");
 }
 
 FrameDynamics::FrameDynamics(FrameModel model, MassModel masses, DynamicOptions options)
@@ -155,7 +165,7 @@ void FrameDynamics::set_damping(const RayleighDamping& damping) {
   state.begin_substep();
   state.apply_changes();
   state.options.damping.stiffness = damping.stiffness;
-  state.set_method({state.method.h, state.options.spectral_radius, damping.stiffness});
+  state.set_method({state.whole.h, state.options.spectral_radius, damping.stiffness});
 }
 
 void FrameDynamics::set_state(const std::vector<Vec6>& displacements, const std::vector<Vec6>& velocities) {
@@ -178,21 +188,26 @@ void FrameDynamics::set_state(const std::vector<Vec6>& displacements, const std:
 }
 
 int FrameDynamics::add_pattern(const LoadSet& loads) {
+  state_->require_undivided();
   if (!loads.shells.empty() || !loads.settlements.empty())
     throw std::invalid_argument("loads that go with time act on nodes and beams");
   return state_->patterns.add(loads);
 }
 
-int FrameDynamics::add_ground_acceleration(const Vec3& direction) { return state_->patterns.add_ground(direction); }
+int FrameDynamics::add_ground_acceleration(const Vec3& direction) {
+  state_->require_undivided();
+  return state_->patterns.add_ground(direction);
+}
 
 int FrameDynamics::add_holding_force() {
   State& state = *state_;
+  state.require_undivided();
   state.begin_substep();
   state.apply_changes();
   SideBySide<1> u = state.current().u.transpose(), Au, Mu;
   multiply<1>(state.system().matrix(), u, Au);
   multiply<1>(state.system().mass(), u, Mu);
-  Eigen::VectorXd force = (Au.row(0) - state.method.s * Mu.row(0)).transpose() - state.constant_load;
+  Eigen::VectorXd force = (Au.row(0) - state.inertia.factor * Mu.row(0)).transpose() - state.constant_load;
   state.kinks.subtract(force);
   if (state.options.second_order) {
     state.evaluate_nodes();
@@ -206,24 +221,23 @@ void FrameDynamics::jump_pattern(int pattern, double value) { state_->patterns.j
 
 const std::vector<JointBreak>& FrameDynamics::advance(const JointLaw* law) {
   State& state = *state_;
+  state.divide_substep(1);
   if (!state.waiting.empty()) strike({});
   state.begin_changed();
   require_none(state.core().renew_factor());
-  state.patterns.find(state.system());
-  state.advance_substep(law);
   ++state.counters.substeps;
-  while (law != nullptr && state.break_joints(*law)) {
-    ++state.counters.retaken;
-    state.apply_changes();
+  if (law == nullptr || state.options.most_parts == 1) {
     state.patterns.find(state.system());
     state.advance_substep(law);
+    state.break_all(law);
+  } else {
+    state.advance_as_needed(*law);
   }
-  state.accept();
   return state.breaks;
 }
 
 double FrameDynamics::time() const { return state_->time; }
-double FrameDynamics::substep() const { return state_->method.h; }
+double FrameDynamics::substep() const { return state_->whole.h; }
 const std::vector<Vec6>& FrameDynamics::displacements() const {
   state_->evaluate_end();
   return state_->nodes.end().u;
@@ -234,6 +248,7 @@ const std::vector<Vec6>& FrameDynamics::velocities() const {
 }
 const std::vector<Vec6>& FrameDynamics::foresee() {
   if (state_->foreseen.empty()) {
+    state_->divide_substep(1);
     strike({});
     require_none(state_->core().renew_factor());
     state_->foresee();
@@ -318,7 +333,7 @@ double FrameDynamics::rayleigh_quotient(const std::vector<Vec6>& displacements) 
   multiply<1>(state.system().matrix(), u, Au);
   multiply<1>(state.system().mass(), u, Mu);
   const double mass = u.row(0).dot(Mu.row(0));
-  return mass > 0 ? std::max(0.0, u.row(0).dot(Au.row(0)) / mass - state.method.s) : 0;
+  return mass > 0 ? std::max(0.0, u.row(0).dot(Au.row(0)) / mass - state.inertia.factor) : 0;
 }
 
 const FrameModel& FrameDynamics::model() const { return state_->frame.model(); }

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "dynamics/impulse_factor.h"
+#include "dynamics/following_factor.h"
 #include "dynamics/products.h"
 
 namespace topple::solver {
@@ -45,9 +45,9 @@ bool FrameDynamics::State::Jumps::damps(const FrameSystem& system) const {
   return softened_ * system.inertia->factor > least_share;
 }
 
-FrameDynamics::State::ImpulseFactor& FrameDynamics::State::Jumps::factor(const FrameSystem& system) {
+FrameDynamics::State::FollowingFactor& FrameDynamics::State::Jumps::factor(const FrameSystem& system) {
   if (!factor_) {
-    factor_ = std::make_unique<ImpulseFactor>(system, options_, softened_);
+    factor_ = std::make_unique<FollowingFactor>(system, options_, softened_);
     followed_ = false;
   }
   if (!followed_) factor_->follow(system);
@@ -58,7 +58,7 @@ FrameDynamics::State::ImpulseFactor& FrameDynamics::State::Jumps::factor(const F
 
 Eigen::VectorXd FrameDynamics::State::Jumps::velocities(const FrameSystem& system, const Eigen::VectorXd& impulses) {
   if (!damps(system)) return velocities_by_mass(system, impulses);
-  ImpulseFactor& by = factor(system);
+  FollowingFactor& by = factor(system);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(impulses.size()), left = impulses, more;
   SideBySide<1> of_whole, of_mass;
   const double enough = solved * impulses.norm(), inert = share_of_mass(system, softened_);

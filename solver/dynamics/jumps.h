@@ -34,12 +34,12 @@ class FrameDynamics::State::Jumps {
  private:
   [[nodiscard]] bool damps(const FrameSystem& system) const;
   [[nodiscard]] Eigen::VectorXd velocities_by_mass(const FrameSystem& system, Eigen::VectorXd left) const;
-  [[nodiscard]] ImpulseFactor& factor(const FrameSystem& system);
+  [[nodiscard]] FollowingFactor& factor(const FrameSystem& system);
 
   const AnalysisOptions& options_;
   double softened_;
-  std::unique_ptr<ImpulseFactor> factor_;  ///< none: not asked for yet
-  bool followed_ = false;                  ///< it has the frame's matrices as they are
+  std::unique_ptr<FollowingFactor> factor_;  ///< none: not asked for yet
+  bool followed_ = false;                    ///< it has the frame's matrices as they are
 };
 
 }  // namespace topple::solver

@@ -91,7 +91,7 @@ LocalModes FrameDynamics::local_modes(std::span<const int> nodes, std::span<cons
   for (const int place : order) all.push_back(sorted[static_cast<std::size_t>(place)]);
   local.equations.assign(all.begin(), all.begin() + n);
   const Eigen::MatrixXd inert = part_of(mass, sorted);
-  const Eigen::MatrixXd stiff = part_of(system.matrix(), sorted) - state.method.s * inert;
+  const Eigen::MatrixXd stiff = part_of(system.matrix(), sorted) - system.inertia->factor * inert;
   const Eigen::MatrixXd K = stiff(order, order), M = inert(order, order);
   Eigen::MatrixXd follow = Eigen::MatrixXd::Identity(n + bare, n);  // what has no mass follows what has
   if (bare > 0)

@@ -34,8 +34,9 @@ void FrameDynamics::State::follow_jump(const Eigen::VectorXd& change) {
     SideBySide<1> whole, inert;
     multiply<1>(system().matrix(), v, whole);
     multiply<1>(system().mass(), v, inert);
-    before.a -= a1 * jumps->velocities(system(),
-                                       Jumps::on_mass(system(), (whole.row(0) - method.s * inert.row(0)).transpose()));
+    before.a -= a1 * jumps->velocities(
+                         system(), Jumps::on_mass(
+                                       system(), (whole.row(0) - system().inertia->factor * inert.row(0)).transpose()));
   }
   before.a -= a0 * change;
 }
@@ -57,7 +58,7 @@ Eigen::MatrixXd FrameDynamics::mobility(std::span<const std::vector<Impulse>> fo
 Eigen::MatrixXd FrameDynamics::substep_mobility(std::span<const std::vector<Impulse>> forces) const {
   State& state = *state_;
   const Eigen::MatrixXd F = state.scaled_columns(forces), result = state.core().answers_between(F, F);
-  return state.method.gamma / (2 * state.method.c) * (result + result.transpose());
+  return state.whole.gamma / (2 * state.whole.c) * (result + result.transpose());
 }
 
 void FrameDynamics::strike(std::span<const Impulse> impulses) {

@@ -101,7 +101,7 @@ void FrameDynamics::State::yield(std::span<const PlasticHinge> hinges) {
     if (kinks[k].response.size() == 0) {
       Eigen::VectorXd response;
       response = of_new_turn() * kinks[k].force;
-      core().solve_as_it_stands(response);
+      solve_substep(response);
       kinks.set_response(k, std::move(response));
     }
     kinks.set_tried(k, tried[h]);

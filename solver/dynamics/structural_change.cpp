@@ -5,6 +5,7 @@
 #include "dynamics/bare_nodes.h"
 #include "dynamics/dynamic_state.h"
 #include "dynamics/jumps.h"
+#include "dynamics/shorter_substeps.h"
 
 namespace topple::solver {
 
@@ -71,6 +72,7 @@ void FrameDynamics::State::renumber() {
   own.apply_changes(nullptr);
   if (own.work.counters.load_solves == of_loads) {  // not of loads alone
     jumps->forget_frame();
+    shorter->forget_frame();
     ++counters.changes;
   }
   require_none(std::exchange(own.mechanism, std::nullopt));
@@ -91,8 +93,10 @@ void FrameDynamics::State::renumber() {
 void FrameDynamics::State::set_method(const GeneralizedAlpha& other) {
   const auto scale = [&]() -> Eigen::VectorXd { return scale_of(system()); };
   const Eigen::VectorXd scaled_by = scale();
-  method = other;
+  whole = method = other;
+  parts = 1;
   jumps->set_softened(damped_in_impulse());
+  shorter->clear();
   inertia.factor = method.s;
   core().rebuild();
   core().answered = false;

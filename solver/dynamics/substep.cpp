@@ -2,11 +2,22 @@
 #include <utility>
 
 #include "dynamics/dynamic_state.h"
+#include "dynamics/shorter_substeps.h"
 
 namespace topple::solver {
 
 void FrameDynamics::State::advance_substep(const JointLaw* law) {
   options.second_order ? advance_second_order(law) : advance_first_order(law);
+}
+
+void FrameDynamics::State::break_all(const JointLaw* law) {
+  while (law != nullptr && break_joints(*law)) {
+    ++counters.retaken;
+    apply_changes();
+    patterns.find(system());
+    advance_substep(law);
+  }
+  accept();
 }
 
 void FrameDynamics::State::advance_first_order(const JointLaw* law) {
@@ -23,7 +34,11 @@ void FrameDynamics::State::solve_elastic() {
   if (options.second_order) geometric.add_to(method.af, collocated_load);
   equation.set(system(), method, options.damping, before, collocated_load,
                options.keep_energy ? &ledger.products(system(), before) : nullptr);
-  core().solve_as_it_stands(equation.w());
+  solve_substep(equation.w());
+}
+
+void FrameDynamics::State::solve_substep(Eigen::VectorXd& x) {
+  parts == 1 ? core().solve_as_it_stands(x) : shorter->solve(system(), parts, method.s, x);
 }
 
 void FrameDynamics::State::foresee() {

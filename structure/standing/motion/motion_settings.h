@@ -8,6 +8,14 @@ struct MotionSettings {
   /// seed building peak within 1 % of all its modes after a loss, at four 0.3 % of them do not (docs/dynamics.md).
   /// Longer: peaks are missed; shorter: dearer.
   double longest_substep = 1.0 / 480;
+  /// Of each joint's capacity: a substep that is off by more (solver::DynamicOptions::largest_error), or in which
+  /// something breaks, is taken in parts. Larger: what an impact or a break sets going breaks other joints; smaller:
+  /// dearer.
+  double substep_error = 0.02;
+  /// Of a substep, at most. Of the house, a post hit with 60 m/s, the joints that break in the next tenth of a second
+  /// and their order are those of 64 and of 512 undivided substeps of 1/60 s; of 8, 16 and 32 undivided ones others
+  /// break. Fewer: what follows an impact hangs on the substep; more: dearer.
+  int substep_parts = 8;
   /// s. An impulse acts over a substep, and over no less than this: what it throws is damped by stiffness for so long.
   /// A hit on a member lasts for some milliseconds. As long as a substep alone, a shot's own speed after it would hang
   /// on the substep (4.3 m/s at 1/480 s, 4.8 at 1/1920 of what hits the house with 60 m/s). Longer: what is hit is
@@ -36,10 +44,10 @@ struct MotionSettings {
 
 template <class Archive>
 void serialize(Archive& archive, MotionSettings& settings) {
-  auto& [longest_substep, shortest_impulse, spectral_radius, metal_damping, other_damping, metal_modulus,
-         rest_utilisation, rest_displacement, rest_looks, largest_turn, falling_turn] = settings;
-  archive(longest_substep, shortest_impulse, spectral_radius, metal_damping, other_damping, metal_modulus,
-          rest_utilisation, rest_displacement, rest_looks, largest_turn, falling_turn);
+  auto& [longest_substep, substep_error, substep_parts, shortest_impulse, spectral_radius, metal_damping, other_damping,
+         metal_modulus, rest_utilisation, rest_displacement, rest_looks, largest_turn, falling_turn] = settings;
+  archive(longest_substep, substep_error, substep_parts, shortest_impulse, spectral_radius, metal_damping,
+          other_damping, metal_modulus, rest_utilisation, rest_displacement, rest_looks, largest_turn, falling_turn);
 }
 
 #ifdef TOPPLE_VARIED_CONSTANTS  // benchmarks/constants: each halved and doubled

@@ -149,6 +149,8 @@ void StandingMotion::make_frame(int c, Moving& moving) const {
   options.substep = substep_;
   options.spectral_radius = settings_.spectral_radius;
   options.shortest_impulse = settings_.shortest_impulse;
+  options.largest_error = settings_.substep_error;
+  options.most_parts = settings_.substep_parts;
   options.beams_vibrate = true;
   options.analysis.threads = from_.threads;
   options.damping = damping;

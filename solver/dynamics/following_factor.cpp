@@ -1,4 +1,4 @@
-#include "dynamics/impulse_factor.h"
+#include "dynamics/following_factor.h"
 
 #include <stdexcept>
 
@@ -6,15 +6,15 @@
 
 namespace topple::solver {
 
-FrameDynamics::State::ImpulseFactor::ImpulseFactor(const FrameSystem& frame, const AnalysisOptions& options,
-                                                   double softened)
+FrameDynamics::State::FollowingFactor::FollowingFactor(const FrameSystem& frame, const AnalysisOptions& options,
+                                                       double softened)
     : softened_(softened), inertia_(*frame.inertia), frame_(frame.model, options) {
   inertia_.factor = 1 / softened;
   own().system->inertia = &inertia_;
 }
 
 /// As the frame's matrices have them, not as they are to be.
-void FrameDynamics::State::ImpulseFactor::follow_beams(const FrameSystem& now) {
+void FrameDynamics::State::FollowingFactor::follow_beams(const FrameSystem& now) {
   for (std::size_t i = 0; i < now.model.beams.size(); ++i) {
     const Beam& beam = now.model.beams[i];
     own().changes.set_beam_removed(i, now.beam_stands[i] == 0);
@@ -24,7 +24,7 @@ void FrameDynamics::State::ImpulseFactor::follow_beams(const FrameSystem& now) {
   }
 }
 
-void FrameDynamics::State::ImpulseFactor::follow_plates(const FrameSystem& now) {
+void FrameDynamics::State::FollowingFactor::follow_plates(const FrameSystem& now) {
   const FrameModel& before = own().system->model;
   for (std::size_t i = 0; i < now.model.shells.size(); ++i)
     if (now.shell_stands[i] == 0) own().changes.set_shell_removed(i, true);
@@ -40,7 +40,7 @@ void FrameDynamics::State::ImpulseFactor::follow_plates(const FrameSystem& now) 
   }
 }
 
-void FrameDynamics::State::ImpulseFactor::follow_nodes(const FrameSystem& now) {
+void FrameDynamics::State::FollowingFactor::follow_nodes(const FrameSystem& now) {
   for (std::size_t i = 0; i < now.node_stands.size(); ++i)
     if (now.node_stands[i] == 0 && own().system->node_stands[i] != 0) own().changes.drop_node(static_cast<int>(i));
   for (std::size_t i = 0; i < now.model.supports.size(); ++i)
@@ -48,7 +48,7 @@ void FrameDynamics::State::ImpulseFactor::follow_nodes(const FrameSystem& now) {
       own().changes.set_support(static_cast<int>(i), now.model.supports[i].stiffness);
 }
 
-void FrameDynamics::State::ImpulseFactor::follow(const FrameSystem& now) {
+void FrameDynamics::State::FollowingFactor::follow(const FrameSystem& now) {
   follow_beams(now);
   follow_plates(now);
   follow_nodes(now);
@@ -61,15 +61,15 @@ void FrameDynamics::State::ImpulseFactor::follow(const FrameSystem& now) {
   ratio_ = scale_of(*own().system).cwiseQuotient(scale_of(now));
 }
 
-void FrameDynamics::State::ImpulseFactor::renew() { require_none(own().renew_factor()); }
+void FrameDynamics::State::FollowingFactor::renew() { require_none(own().renew_factor()); }
 
-void FrameDynamics::State::ImpulseFactor::solve(Eigen::VectorXd& x) {
+void FrameDynamics::State::FollowingFactor::solve(Eigen::VectorXd& x) {
   x = x.cwiseProduct(ratio_);
   own().solve_as_it_stands(x);
   x = x.cwiseProduct(ratio_) / softened_;
 }
 
-Eigen::MatrixXd FrameDynamics::State::ImpulseFactor::between(const Eigen::MatrixXd& F, const Eigen::MatrixXd& G) {
+Eigen::MatrixXd FrameDynamics::State::FollowingFactor::between(const Eigen::MatrixXd& F, const Eigen::MatrixXd& G) {
   const Eigen::MatrixXd forces = ratio_.asDiagonal() * F;
   const Eigen::MatrixXd X = ratio_.asDiagonal() * G;
   return own().answers_between(forces, X) / softened_;

@@ -1,17 +1,18 @@
 #pragma once
-// How a frame that moves takes impulses: (M + e K)^-1, by a factor of K + M/e. It is kept beside the factor of the
-// substeps, follows the same changes as that does, and is made when an impulse first asks for it.
+// (M + e K)^-1 of a frame that moves, by a factor of K + M/e: how it takes impulses, and substeps that are shorter than
+// its own. It is kept beside the factor of the substeps, follows the same changes as that does, and is made when it is
+// first asked for.
 #include <iosfwd>
 
 #include "dynamics/dynamic_state.h"
 
 namespace topple::solver {
 
-struct FrameDynamics::State::ImpulseFactor {
+struct FrameDynamics::State::FollowingFactor {
   /// Of a frame that moves, with its inertia. `softened`: e, s2, above 0.
-  ImpulseFactor(const FrameSystem& frame, const AnalysisOptions& options, double softened);
-  ImpulseFactor(const ImpulseFactor&) = delete;
-  ImpulseFactor& operator=(const ImpulseFactor&) = delete;
+  FollowingFactor(const FrameSystem& frame, const AnalysisOptions& options, double softened);
+  FollowingFactor(const FollowingFactor&) = delete;
+  FollowingFactor& operator=(const FollowingFactor&) = delete;
 
   /// Takes over what has changed in the frame's matrices. Throws Instability.
   void follow(const FrameSystem& now);
