@@ -58,8 +58,11 @@ void ChangedMomentum::begin_part(const FrameSystem& system, const RequestedChang
     const auto& held = system.model.beams[i].end_stiffness;
     if (left_.contains(one.beam) || (system.beam_stands[i] != 0 && !(held[0].isZero(0) && held[1].isZero(0)))) continue;
     const std::vector<BeamLoad>& loads = changes.beam(i).loads;
-    left_[one.beam] = *left_with(system, one.beam, loads, h) +
-                      about_origin(system, one.beam, impulse_of(loads, h * static_cast<double>(left)));
+    const double later = h * static_cast<double>(left);
+    Left gone = *left_with(system, one.beam, loads, h);
+    gone.momentum += about_origin(system, one.beam, impulse_of(loads, later));
+    gone.ends += later * one.end_rates;
+    left_.emplace(one.beam, gone);
   }
   broken_.clear();
   changed_.clear();
@@ -67,7 +70,7 @@ void ChangedMomentum::begin_part(const FrameSystem& system, const RequestedChang
 }
 
 void ChangedMomentum::remember(const FrameSystem& system, const SystemInertia& inertia, const RequestedChanges& changes,
-                               const Eigen::VectorXd& velocities) {
+                               const MotionState& motion) {
   for (const int beam : changes.beams()) {
     const auto i = static_cast<std::size_t>(beam);
     const Beam& now_is = system.model.beams[i];
@@ -77,7 +80,8 @@ void ChangedMomentum::remember(const FrameSystem& system, const SystemInertia& i
     if (known) continue;
     const Mat12 follows = ends_by_rigid_ends(now_is);
     changed_.push_back(
-        {beam, follows, momentum_of_beam(system, inertia.masses, beam, follows, velocities) + brought_to(beam)});
+        {beam, follows, momentum_of_beam(system, inertia.masses, beam, follows, motion.v) + brought_to(beam),
+         follows * rigid_end_motion(system, beam, motion.u), follows * rigid_end_motion(system, beam, motion.v)});
   }
 }
 
@@ -100,15 +104,15 @@ Vec12 ChangedMomentum::fixed_end(int beam) const {
 }
 
 /// Its joints' forces until they broke pushed it the other way, and its loads went on.
-std::optional<Vec6> ChangedMomentum::left_with(const FrameSystem& system, int beam, const std::vector<BeamLoad>& loads,
-                                               double h) const {
+auto ChangedMomentum::left_with(const FrameSystem& system, int beam, const std::vector<BeamLoad>& loads, double h) const
+    -> std::optional<Left> {
   if (const auto before = left_.find(beam); before != left_.end()) return before->second;
   const auto gone = std::find_if(changed_.begin(), changed_.end(), [&](const auto& c) { return c.beam == beam; });
   if (gone == changed_.end()) return std::nullopt;
   Vec12 impulse = impulse_of(loads, h);
   for (const BrokenJoint& joint : broken_)
     if (joint.beam == beam) impulse.segment<6>(static_cast<Eigen::Index>(6 * joint.end)) += h * joint.mean_force;
-  return gone->momentum + about_origin(system, beam, impulse);
+  return Left{gone->momentum + about_origin(system, beam, impulse), gone->ends + h * gone->end_rates};
 }
 
 /// Momentum that came to beams, as forces over a substep on the ends that hold them.

@@ -8,6 +8,7 @@
 
 #include "assembly/element_masses.h"
 #include "assembly/frame_system.h"
+#include "dynamics/motion_state.h"
 #include "reanalysis/requested_changes.h"
 
 namespace topple::solver {
@@ -16,10 +17,10 @@ class ChangedMomentum {
  public:
   /// Loads of the last substep's breaks end.
   void begin_substep();
-  /// Before the frame changes: how the ends of beams that will change follow their nodes, which move with these
-  /// velocities (scaled equations), and the beams' momentum.
+  /// Before the frame changes: how the ends of beams that will change follow their nodes in this motion (scaled
+  /// equations), where that has them, and the beams' momentum.
   void remember(const FrameSystem& system, const SystemInertia& inertia, const RequestedChanges& changes,
-                const Eigen::VectorXd& velocities);
+                const MotionState& motion);
   /// The next part of a substep begins, of the length h; as many are left. What has left by now goes on with its loads.
   void begin_part(const FrameSystem& system, const RequestedChanges& changes, double h, int left);
   /// The joint broke; until then its force acted: its mean over the substep, local.
@@ -38,7 +39,15 @@ class ChangedMomentum {
   [[nodiscard]] Vec6 brought_to(int beam) const;
   /// What a beam that changed in this substep left with, if it did: its momentum before, less what its joints' forces
   /// took, and with what its loads gave.
-  [[nodiscard]] std::optional<Vec6> left_with(const FrameSystem& system, int beam, const std::vector<BeamLoad>& loads,
+  struct Left {
+    Vec6 momentum = Vec6::Zero();
+    Vec12 ends = Vec12::Zero();  ///< displacements of its own ends, local, as they went on
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(momentum, ends);
+    }
+  };
+  [[nodiscard]] std::optional<Left> left_with(const FrameSystem& system, int beam, const std::vector<BeamLoad>& loads,
                                               double h) const;
 
   template <class Archive>
@@ -62,10 +71,11 @@ class ChangedMomentum {
     int beam;
     Mat12 followed;
     Vec6 momentum;
+    Vec12 ends, end_rates;  ///< of its own ends, local
     template <class Archive>
     void serialize(Archive& archive) {
-      auto& [number, ends, at_start] = *this;
-      archive(number, ends, at_start);
+      auto& [number, follows, at_start, displacements, velocities] = *this;
+      archive(number, follows, at_start, displacements, velocities);
     }
   };
   void add_brought(const FrameSystem& system, double h, Eigen::VectorXd& force) const;
@@ -74,7 +84,7 @@ class ChangedMomentum {
   std::vector<ChangedBeam> changed_;
   std::map<int, Vec6> brought_;     ///< per beam
   std::map<int, Vec12> fixed_end_;  ///< of beams that bear the force of their broken end in this substep, local
-  std::map<int, Vec6> left_;        ///< with which beams left in an earlier part of the substep, at its end
+  std::map<int, Left> left_;        ///< beams that left in an earlier part of the substep, at its end
 };
 
 }  // namespace topple::solver

@@ -98,16 +98,37 @@ void FrameDynamics::add_momentum(int beam, const Vec6& momentum) {
   state_->changed.bring(beam, momentum);
 }
 
+bool FrameDynamics::State::hangs(int beam) const {
+  const auto i = checked_beam(frame.model(), beam);
+  const auto& ends = system().model.beams[i].end_stiffness;
+  return system().beam_stands[i] != 0 && !(ends[0].isZero(0) && ends[1].isZero(0));
+}
+
+std::optional<ChangedMomentum::Left> FrameDynamics::State::left_with(int beam) const {
+  return changed.left_with(system(), beam, core().changes.beam(static_cast<std::size_t>(beam)).loads, method.h);
+}
+
 Vec6 FrameDynamics::beam_momentum(int beam) const {
   const State& state = *state_;
-  const auto i = checked_beam(model(), beam);
-  const Beam& own = state.system().model.beams[i];
-  const bool hangs = !own.end_stiffness[0].isZero(0) || !own.end_stiffness[1].isZero(0);
-  if (state.system().beam_stands[i] != 0 && hangs)
-    return momentum_of_beam(state.system(), state.inertia.masses, beam, ends_by_rigid_ends(own), state.current().v) +
+  if (state.hangs(beam))
+    return momentum_of_beam(state.system(), state.inertia.masses, beam,
+                            ends_by_rigid_ends(model().beams[static_cast<std::size_t>(beam)]), state.current().v) +
            state.changed.brought_to(beam);
-  return state.changed.left_with(state.system(), beam, state.core().changes.beam(i).loads, state.method.h)
-      .value_or(Vec6::Zero());
+  const std::optional<ChangedMomentum::Left> left = state.left_with(beam);
+  return left ? left->momentum : Vec6(Vec6::Zero());
+}
+
+Vec12 FrameDynamics::beam_ends(int beam) const {
+  const State& state = *state_;
+  Vec12 ends = Vec12::Zero();
+  if (state.hangs(beam))
+    ends = ends_by_rigid_ends(model().beams[static_cast<std::size_t>(beam)]) *
+           rigid_end_motion(state.system(), beam, state.current().u);
+  else if (const std::optional<ChangedMomentum::Left> left = state.left_with(beam))
+    ends = left->ends;
+  const Mat3& axes = model().beams[static_cast<std::size_t>(beam)].axes;
+  for (Eigen::Index part = 0; part < 12; part += 3) ends.segment<3>(part) = axes.transpose() * ends.segment<3>(part);
+  return ends;
 }
 
 Vec6 FrameDynamics::node_momentum(int node) const {

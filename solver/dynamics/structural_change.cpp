@@ -43,7 +43,7 @@ void FrameDynamics::State::apply_changes() {
     return;
   }
   const double stored = stored_energy();
-  changed.remember(system(), inertia, core().changes, before.v);
+  changed.remember(system(), inertia, core().changes, before);
   if (const std::vector<int> bare = bare_nodes(system(), inertia, core().changes); !bare.empty())
     frame.drop_nodes(bare);
   renumber();

@@ -25,8 +25,8 @@ void serialize(Archive& archive, JointBreak& line) {
 
 template <class Archive>
 void serialize(Archive& archive, Detached::Motion& motion) {
-  auto& [momentum, angular, displacement] = motion;
-  archive(momentum, angular, displacement);
+  auto& [momentum, angular, displacement, turned] = motion;
+  archive(momentum, angular, displacement, turned);
 }
 
 template <class Archive>

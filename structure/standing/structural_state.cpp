@@ -1,6 +1,7 @@
 #include "standing/structural_state.h"
 
-#include <span>
+#include <algorithm>
+#include <array>
 
 #include "topple/structure/error.h"
 
@@ -53,33 +54,80 @@ PanelLoading StructuralState::loading(PanelId panel) const {
   return loading;
 }
 
+void StructuralState::add_displacement(MemberId id, RigidDisplacementFit& to) const {
+  const Member& member = building[id];
+  const std::array<Vec3, 2> at{building[member.nodes[0]].position + member.offsets[0],
+                               building[member.nodes[1]].position + member.offsets[1]};
+  const Vec3 along = (at[1] - at[0]) / member.length;
+  const solver::Vec12 ends = ends_of(id);
+  const Vec3 first = ends.segment<3>(0), second = ends.segment<3>(6);
+  // As a rod across its axis; about that as one of a hundredth of its length.
+  constexpr double thick = 1e-4;
+  const double mass = loads.mass(id), across = mass * member.length * member.length / 12;
+  const Mat3 inertia = across * (Mat3::Identity() - (1 - thick) * along * along.transpose());
+  const Vec3 turned = along.cross(second - first) / member.length +
+                      along * along.dot(Vec3(ends.segment<3>(3) + ends.segment<3>(9))) / 2;
+  to.add(mass, (at[0] + at[1]) / 2, inertia, (first + second) / 2, turned);
+}
+
+/// By its corners that leave with the part, or, of one that leaves alone, by all that anything tells of.
+void StructuralState::add_displacement(PanelId id, const Detached& part, RigidDisplacementFit& to) const {
+  RigidDisplacementFit corners;
+  Vec3 centre = Vec3::Zero();
+  int count = 0;
+  for (const NodeId node : building[id].nodes) {
+    centre += building[node].position / 4;
+    const bool goes = part.nodes.empty() ? parts.segments.degree(node) > 0
+                                         : std::binary_search(part.nodes.begin(), part.nodes.end(), node);
+    if (!goes) continue;
+    corners.add_point(1, building[node].position, displacement_of(node).head<3>());
+    ++count;
+  }
+  const Vec3 turned = count > 2 ? corners.turned() : Vec3(Vec3::Zero());
+  // Four points of a quarter each have a plate's second moments (Gauss), if they turn as it does.
+  Mat3 inertia = Mat3::Zero();
+  for (const NodeId node : building[id].nodes)
+    if (count > 2) inertia += point_inertia(loads.mass(id) / 12, building[node].position - centre);
+  to.add(loads.mass(id), centre, inertia, corners.moved(), turned);
+}
+
+/// Displacements of its own ends, global axes.
+solver::Vec12 StructuralState::ends_of(MemberId id) const {
+  if (moves(statics.component(id))) return motion->ends(id);
+  solver::Vec12 ends;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Member& member = building[id];
+    const Vec6& node = account.displacement(member.nodes[end]);
+    const Vec3 turned = node.tail<3>();
+    ends.segment<6>(static_cast<Eigen::Index>(6 * end)) << node.head<3>() + turned.cross(member.offsets[end]), turned;
+  }
+  return ends;
+}
+
+const Vec6& StructuralState::displacement_of(NodeId node) const {
+  return moves(statics.component(node)) ? motion->displacement(node) : account.displacement(node);
+}
+
 Detached::Motion StructuralState::motion_of(const Detached& part) const {
   Vec6 momentum = Vec6::Zero();
-  Vec3 displacement = Vec3::Zero();
-  double mass = 0;
-  const auto add = [&](double weighs, std::span<const NodeId> nodes) {
-    mass += weighs;
-    for (const NodeId node : nodes) {
-      const Vec6& own = moves(statics.component(node)) ? motion->displacement(node) : account.displacement(node);
-      displacement += weighs / static_cast<double>(nodes.size()) * own.head<3>();
-    }
-  };
+  RigidDisplacementFit displacement;
   for (const MemberId member : part.members) {
     momentum += motion->momentum().of(member);
-    add(loads.mass(member), building[member].nodes);
+    add_displacement(member, displacement);
   }
   for (const PanelId panel : part.panels) {
     momentum += motion->momentum().of(panel);
-    add(loads.mass(panel), building[panel].nodes);
+    add_displacement(panel, part, displacement);
   }
   for (const NodeId node : part.nodes) {
     momentum += motion->momentum().of(node);
-    add(loads.mass(node), {&node, 1});
+    displacement.add_point(loads.mass(node), building[node].position, displacement_of(node).head<3>());
   }
   Detached::Motion found;
   found.momentum = momentum.head<3>();
   found.angular = momentum.tail<3>();
-  if (mass > 0) found.displacement = displacement / mass;
+  found.displacement = displacement.moved();
+  found.turned = displacement.turned();
   return found;
 }
 

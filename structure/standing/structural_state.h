@@ -9,6 +9,7 @@
 #include "standing/contact_loads.h"
 #include "standing/energy/energy_account.h"
 #include "standing/frame_response.h"
+#include "standing/motion/rigid_displacement_fit.h"
 #include "standing/motion/standing_motion.h"
 #include "standing/panel_superelements.h"
 #include "standing/solver_contents.h"
@@ -47,6 +48,12 @@ struct StructuralState {
   /// But for motion, which is made and loaded once all that it looks at is there.
   template <class Archive>
   void serialize(Archive& archive);
+
+  // What motion_of() is made of.
+  void add_displacement(MemberId member, RigidDisplacementFit& to) const;
+  void add_displacement(PanelId panel, const Detached& part, RigidDisplacementFit& to) const;
+  [[nodiscard]] solver::Vec12 ends_of(MemberId member) const;
+  [[nodiscard]] const Vec6& displacement_of(NodeId node) const;
 
   const Building& building;
   CombinationId combination;  ///< of its loads

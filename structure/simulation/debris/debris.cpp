@@ -49,8 +49,14 @@ void Debris::renew_shape(Part part) {
 }
 
 collision::BodyId Debris::add(Body one, const Vec3& velocity, const Vec3& spin, const Vec3& displacement) {
+  collision::Pose pose;
+  pose.position = one.rest.centre + displacement;
+  return add(std::move(one), velocity, spin, pose);
+}
+
+collision::BodyId Debris::add(Body one, const Vec3& velocity, const Vec3& spin, const collision::Pose& pose) {
   collision::BodyState state;
-  state.pose.position = one.rest.centre + displacement;
+  state.pose = pose;
   state.velocity = scene.reading().to_world(velocity);
   state.angular_velocity = spin;
   return add(std::move(one), state);

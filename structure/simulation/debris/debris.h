@@ -20,6 +20,8 @@ struct Debris {
 
   /// A body of true velocity and spin, `displacement` away from where it was in the undeformed building.
   collision::BodyId add(Body one, const Vec3& velocity, const Vec3& spin, const Vec3& displacement);
+  /// The same where it is by now.
+  collision::BodyId add(Body one, const Vec3& velocity, const Vec3& spin, const collision::Pose& pose);
   /// `state` as the collision world reads it.
   collision::BodyId add(Body one, const collision::BodyState& state);
   /// The collision world knows it no more, nor does what it lay on; its parts are in no body until they are in others.

@@ -4,6 +4,7 @@
 
 #include "simulation/debris/debris_settings.h"
 #include "simulation/debris/momentum.h"
+#include "simulation/debris/moved_pose.h"
 
 namespace topple::structure {
 
@@ -21,22 +22,33 @@ void Release::release() {
   keep_limit();
 }
 
+/// What left in motion goes on where it was.
+PartMotion Release::displacement_of(const Detached& part) const {
+  PartMotion moved;
+  if (part.motion) {
+    moved.moved = part.motion->displacement;
+    moved.turned = part.motion->turned;
+    return moved;
+  }
+  for (const NodeId node : part.nodes) moved.moved += scene.frame->displacement(node).head<3>();
+  if (!part.nodes.empty()) moved.moved /= static_cast<double>(part.nodes.size());
+  if (moved.moved.norm() > debris_settings.largest_start)
+    moved.moved *= debris_settings.largest_start / moved.moved.norm();
+  return moved;
+}
+
 void Release::release(const Detached& part) {
   if (part.members.empty() && part.panels.empty() && part.nodes.empty()) return;
   if (part.cut) return release_in_two(part);
   if (part.members.empty() && part.panels.empty() && debris.masses.of(part).mass <= 0) return;  // a bare node
   Body one = break_up.describe(part);
-  Vec3 displacement = Vec3::Zero();
-  for (const NodeId node : part.nodes) displacement += scene.frame->displacement(node).head<3>();
-  if (!part.nodes.empty()) displacement /= static_cast<double>(part.nodes.size());
-  if (displacement.norm() > debris_settings.largest_start)
-    displacement *= debris_settings.largest_start / displacement.norm();
+  const collision::Pose pose = moved_pose(one.rest.centre, displacement_of(part));
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
+  const Mat3 inertia = world_inertia(one, pose.orientation);
   if (part.motion) {
-    displacement = part.motion->displacement;
     velocity = part.motion->momentum / one.rest.mass;
-    spin = one.rest.inertia.inverse() * (part.motion->angular - one.rest.centre.cross(part.motion->momentum));
-    sums.kinetic_released += (part.motion->momentum.dot(velocity) + spin.dot(one.rest.inertia * spin)) / 2;
+    spin = inertia.inverse() * (part.motion->angular - one.rest.centre.cross(part.motion->momentum));
+    sums.kinetic_released += (part.motion->momentum.dot(velocity) + spin.dot(inertia * spin)) / 2;
   }
   std::vector<Part> gone(part.members.begin(), part.members.end());
   for (const PanelId panel : part.panels) gone.emplace_back(panel);
@@ -49,22 +61,22 @@ void Release::release(const Detached& part) {
   event.members = one.members;
   event.panels = one.panels;
   event.mass = one.rest.mass;
-  event.position = one.rest.centre + displacement;
+  event.position = pose.position;
   if (small) {
     for (const MemberId member : part.members) debris.lose(Part(member));
     for (const PanelId panel : part.panels) debris.lose(Part(panel));
-    sums.ledger.removed += (one.rest.mass * velocity.squaredNorm() + spin.dot(one.rest.inertia * spin)) / 2;
+    sums.ledger.removed += (one.rest.mass * velocity.squaredNorm() + spin.dot(inertia * spin)) / 2;
     debris.leave_weight(one.rest);
     return;
   }
   const bool breaks = panels.breakable_of(one).valid() && release_impulses.first_on(one) != nullptr;
   if (breaks) {
-    debris_fracture.shatter_struck(debris.add(std::move(one), velocity, spin, displacement));
+    debris_fracture.shatter_struck(debris.add(std::move(one), velocity, spin, pose));
     return;
   }
   release_impulses.apply(one, velocity, spin, sums.ledger);
   const std::vector<collision::BodyId> passing = release_impulses.breakers_of(one, debris.bodies);
-  const collision::BodyId id = debris.add(std::move(one), velocity, spin, displacement);
+  const collision::BodyId id = debris.add(std::move(one), velocity, spin, pose);
   check_momentum(debris.bodies.at(id.value), part.motion);
   hinges.hang_on(part.hinges, id);
   for (const collision::BodyId by : passing) debris.pass(by, id);

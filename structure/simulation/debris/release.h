@@ -2,6 +2,7 @@
 // The release stage: parts that the frame no longer holds become rigid bodies with their mass, centre and inertia.
 #include <optional>
 
+#include "simulation/debris/part_motion.h"
 #include "simulation/debris/release_impulses.h"
 #include "simulation/fracture/debris_fracture.h"
 #include "simulation/fracture/standing_fracture.h"
@@ -29,6 +30,7 @@ struct Release {
 
  private:
   void release(const Detached& part);
+  [[nodiscard]] PartMotion displacement_of(const Detached& part) const;
   // cut_in_two.cpp: the pieces of a post that buckled inside.
   void release_in_two(const Detached& part);
   [[nodiscard]] Body piece_of(MemberId member, int end, double cut) const;

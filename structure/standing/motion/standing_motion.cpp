@@ -280,6 +280,10 @@ solver::Vec12 StandingMotion::end_forces(MemberId member) const {
   return moving_.at(from_.statics.component(member))->frame->beam_end_forces(from_.statics.number(member));
 }
 
+solver::Vec12 StandingMotion::ends(MemberId member) const {
+  return moving_.at(from_.statics.component(member))->frame->beam_ends(from_.statics.number(member));
+}
+
 Vec6 StandingMotion::reaction(NodeId node, std::size_t support) const {
   return moving_.at(from_.statics.component(node))->frame->reaction(from_.statics.support_number(support));
 }

@@ -78,6 +78,8 @@ class StandingMotion {
   [[nodiscard]] const Vec6& displacement(NodeId node) const;
   [[nodiscard]] Vec6 velocity(NodeId node) const;
   [[nodiscard]] solver::Vec12 end_forces(MemberId member) const;
+  /// Displacements of its own ends, global axes (solver::FrameDynamics::beam_ends()).
+  [[nodiscard]] solver::Vec12 ends(MemberId member) const;
   /// Of a support of the node, by its place among the building's.
   [[nodiscard]] Vec6 reaction(NodeId node, std::size_t support) const;
   [[nodiscard]] std::array<Vec6, 4> corner_forces(PanelId membrane) const;

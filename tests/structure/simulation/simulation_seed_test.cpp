@@ -68,8 +68,8 @@ TEST_CASE("a hit on the corner post brings down what it carried, the same in eve
     run_until(2);  // the shot at 1 s took the corner and what stands behind it
     const CollapseCounts first = collapse_counts(simulation);
     CHECK(first.members_down >= 6);
-    // In motion 65 to 140 of 306 in 72 runs whose shot was moved by up to 0.1 m.
-    CHECK(first.members_down < (at_rest ? 40 : 160));
+    // In motion 89 to 213 of 306 in 36 runs whose shot was moved by up to 0.1 m.
+    CHECK(first.members_down < (at_rest ? 40 : 250));
     // In motion a post may be left to stand by itself, in some runs and not in others.
     CHECK(first.standing_segments >= 1);
     CHECK(first.standing_segments <= (at_rest ? 1 : 4));

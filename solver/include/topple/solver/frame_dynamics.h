@@ -298,6 +298,9 @@ class FrameDynamics {
   /// The same of one beam. Of one whose last joint broke in the last substep: what it left with, from its motion at the
   /// start of that substep and the forces and loads on it since.
   [[nodiscard]] Vec6 beam_momentum(int beam) const;
+  /// Displacements of the beam's own ends, m and rad, global axes: an end that broke goes with the beam, not with its
+  /// node. Of one whose last joint broke in the last substep: as its ends went on then.
+  [[nodiscard]] Vec12 beam_ends(int beam) const;
   /// Of the mass at a node.
   [[nodiscard]] Vec6 node_momentum(int node) const;
   /// Of the mass of a patch, changes since the last substep apart.

@@ -42,6 +42,7 @@ struct Detached {
     Vec3 momentum = Vec3::Zero();      ///< N s
     Vec3 angular = Vec3::Zero();       ///< N m s about the origin, of displacements about the unloaded place
     Vec3 displacement = Vec3::Zero();  ///< m: mean of its mass
+    Vec3 turned = Vec3::Zero();        ///< rad: of its mass about that
   };
   std::optional<Motion> motion{};  ///< none: it was at rest
 };
