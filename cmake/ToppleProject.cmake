@@ -14,8 +14,9 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 
 find_program(TOPPLE_CCACHE ccache)
-if(TOPPLE_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${TOPPLE_CCACHE}")
+if(TOPPLE_CCACHE)  # paths below the checkout count as relative: what one checkout has compiled serves another
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1 "${TOPPLE_CCACHE}")
 endif()
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)

@@ -4,13 +4,13 @@
 #include <iostream>
 #include <string>
 
-#include "test_paths.h"
+#include "support/source_tree.h"
 
 namespace topple::test {
 
 /// Path of a file of the reference data, e.g. "reference/opensees/A1_def_L1.json".
 inline std::filesystem::path shared_path(const std::string& relative) {
-  return std::filesystem::path(TOPPLE_SHARED_DIR) / relative;
+  return in_source_tree("../shared/" + relative);
 }
 
 /// True when the file exists; else tells CTest (through its skip expression) why the test is skipped.

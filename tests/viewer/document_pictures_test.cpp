@@ -16,12 +16,12 @@
 
 #include "renderer/headless_context.h"
 #include "support/scratch_folder.h"
-#include "test_paths.h"
+#include "support/source_tree.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path source = TOPPLE_SOURCE_DIR;
+const fs::path source = topple::test::in_source_tree("");
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file);

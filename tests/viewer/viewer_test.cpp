@@ -16,7 +16,7 @@
 #include "app/session.h"
 #include "renderer/headless_context.h"
 #include "support/scratch_folder.h"
-#include "test_paths.h"
+#include "support/source_tree.h"
 #include "topple/structure/error.h"
 
 namespace {
@@ -203,7 +203,7 @@ TEST_CASE("a script's mistakes are named with their place") {
 
 TEST_CASE("in a window, a person orbits, fires, sees joints fail, and pauses") {
   const Folder folder;
-  const std::string command = std::string(TOPPLE_SOURCE_DIR "/tests/viewer/drive_window.sh '") +
+  const std::string command = topple::test::in_source_tree("tests/viewer/drive_window.sh '") +
                               TOPPLE_VIEWER_PROGRAM "' '" + folder.path().string() + "'";
   const int status = WEXITSTATUS(std::system(command.c_str()));
   if (status == 77) {

@@ -2,13 +2,13 @@
 #include <catch2/catch.hpp>
 
 #include "fuzz/targets.h"
-#include "test_paths.h"
+#include "support/source_tree.h"
 #include "topple/structure/formats/input_files.h"
 
 TEST_CASE("what fuzzers found is read or refused as promised") {
   for (const auto& [name, target] : topple::fuzz::targets()) {
     std::size_t read = 0;
-    const auto corpus = std::filesystem::path(TOPPLE_SOURCE_DIR) / "tests/fuzz/corpus" / name;
+    const auto corpus = std::filesystem::path(topple::test::in_source_tree("tests/fuzz/corpus")) / name;
     for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
       INFO(entry.path().string());
       CHECK_NOTHROW(target(topple::structure::read_whole_file(entry.path())));

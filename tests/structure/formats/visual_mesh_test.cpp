@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "support/scratch_folder.h"
-#include "test_paths.h"
+#include "support/source_tree.h"
 #include "topple/fracture/gltf_reader.h"
 #include "topple/fracture/mesh_files.h"
 #include "topple/fracture/prism.h"
@@ -118,10 +118,10 @@ TEST_CASE("a mesh bound by name follows that part alone") {
 }
 
 TEST_CASE("the drawn facade of the seed building comes down with it, closed and whole") {
-  auto [building, scenario] = read_scenario(std::string(TOPPLE_SOURCE_DIR "/models/scenarios/seed_house_hit.json"));
+  auto [building, scenario] = read_scenario(topple::test::in_source_tree("models/scenarios/seed_house_hit.json"));
   Simulation simulation(std::move(building), std::move(scenario));
   VisualMesh model(simulation.building(),
-                   read_drawn_meshes(simulation.building(), TOPPLE_SOURCE_DIR "/models/seed_house.json"));
+                   read_drawn_meshes(simulation.building(), topple::test::in_source_tree("models/seed_house.json")));
   CHECK(model.pieces().size() == 108);
   // Six bands round 18 m x 24 m of 0.6 m x 0.3 m, and 84 frames of 2.024 m3.
   CHECK(model.volume() == Approx(6 * 84 * 0.18 + 84 * 2.024).epsilon(1e-5));

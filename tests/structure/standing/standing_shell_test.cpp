@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "standing/panel_superelement.h"
-#include "test_paths.h"
+#include "support/source_tree.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/formats/files.h"
 #include "topple/structure/simulation.h"
@@ -72,7 +72,7 @@ PanelRemains with_hole() {
 }
 
 Scenario shipped(const std::string& name) {
-  return read_scenario(std::string(TOPPLE_SOURCE_DIR "/models/scenarios/") + name + ".json").second;
+  return read_scenario(topple::test::in_source_tree(std::string("models/scenarios/") + name + ".json")).second;
 }
 
 const SimulationEvent* find(const Simulation& simulation, SimulationEvent::Kind kind) {
@@ -170,7 +170,8 @@ TEST_CASE("a push on a shell panel gives way as the global mesh does") {
 TEST_CASE("the wall is shot through with each method, where the ball touches it, and stands on") {
   for (const std::string name : {"wall_hit", "wall_hit_quadrilateral", "wall_hit_local"}) {
     CAPTURE(name);
-    const auto [model, scenario] = read_scenario(std::string(TOPPLE_SOURCE_DIR "/models/scenarios/") + name + ".json");
+    const auto [model, scenario] =
+        read_scenario(topple::test::in_source_tree(std::string("models/scenarios/") + name + ".json"));
     Simulation simulation(model, scenario);
     const double whole = simulation.frame().mass(PanelId(0u));
     while (!simulation.finished() && !find(simulation, SimulationEvent::Kind::panel_fractured)) simulation.step();
@@ -205,7 +206,7 @@ TEST_CASE("a ball leaves a hole that it fits through, however coarse the cells")
   for (const auto method :
        {topple::fracture::Method::voronoi, topple::fracture::Method::quadrilateral, topple::fracture::Method::local}) {
     CAPTURE(static_cast<int>(method));
-    const auto [model, scenario] = read_scenario(TOPPLE_SOURCE_DIR "/models/scenarios/wall_hit.json");
+    const auto [model, scenario] = read_scenario(topple::test::in_source_tree("models/scenarios/wall_hit.json"));
     Scenario coarse = scenario;
     coarse.fracture->method = method;
     coarse.fracture->cell = 1.3;
@@ -226,7 +227,7 @@ TEST_CASE("a ball leaves a hole that it fits through, however coarse the cells")
 }
 
 TEST_CASE("a click breaks the wall where its ray meets it") {
-  const auto [model, scenario] = read_scenario(std::string(TOPPLE_SOURCE_DIR "/models/scenarios/wall_hit.json"));
+  const auto [model, scenario] = read_scenario(topple::test::in_source_tree("models/scenarios/wall_hit.json"));
   Scenario quiet = scenario;
   quiet.events.clear();
   quiet.until_rest = false;

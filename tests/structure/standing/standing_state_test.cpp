@@ -4,7 +4,6 @@
 
 #include "structure/random_standing.h"
 #include "structure/unbraced_rules.h"
-#include "test_paths.h"
 #include "topple/structure/error.h"
 #include "topple/structure/formats/files.h"
 #include "topple/structure/join_shells.h"
