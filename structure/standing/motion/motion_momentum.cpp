@@ -8,6 +8,7 @@
 #include <span>
 
 #include "model/point_inertia.h"
+#include "standing/motion/rigid_displacement_fit.h"
 #include "standing/motion/standing_motion.h"
 
 namespace topple::structure {
@@ -72,6 +73,21 @@ Vec6 MotionMomentum::of(PanelId panel) const {
 }
 
 Vec3 MotionMomentum::spin(PanelId panel) const {
+  const Vec3 of_corners = spin_of_corners(panel);
+  if (from_.building[panel].model == PanelModel::shell) return of_corners;
+  RigidDisplacementFit motion;
+  const MotionMasses::Shares& shares = masses_.shares(panel);
+  for (const auto& [id, mass] : shares.members) {
+    const Member& member = from_.building[id];
+    const Vec3 way = from_.building[member.nodes[1]].position - from_.building[member.nodes[0]].position;
+    motion.add_momentum(mass, middle(id), point_inertia(mass / 12, way), mass * per_kilogram(id));
+  }
+  for (const auto& [node, mass] : shares.nodes)
+    motion.add_point(mass, from_.building[node].position, motion_.velocity(node).head<3>());
+  return motion.turned(of_corners);
+}
+
+Vec3 MotionMomentum::spin_of_corners(PanelId panel) const {
   std::vector<Vec3> places, velocities;
   for (const NodeId node : from_.building[panel].nodes) {
     if (from_.parts.segments.degree(node) == 0) continue;  // nothing tells how it moves

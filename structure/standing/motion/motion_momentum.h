@@ -20,13 +20,15 @@ class MotionMomentum {
 
   // Linear momentum (N s), and angular about the origin, of displacements about the unloaded place (N m s).
   [[nodiscard]] Vec6 of(MemberId member) const;  ///< panels that lie on it apart
-  /// Its mass moved with what bore it. Once it leaves, that mass lies where the panel is, and turns as its corners do:
+  /// Its mass moved with what bore it. Once it leaves, that mass lies where the panel is, and turns with its spin():
   /// the linear momentum is kept.
   [[nodiscard]] Vec6 of(PanelId panel) const;
   [[nodiscard]] Vec6 of(NodeId node) const;  ///< of what lies on it
   /// m/s, of the panel's mass, in the mean.
   [[nodiscard]] Vec3 velocity(PanelId panel) const;
-  /// rad/s, as its corners turn about each other; 0 where fewer than three tell.
+  /// rad/s: of the rigid motion with the momentum that its mass has on what bears it. Its corners are light, and swing
+  /// back when something breaks; they tell of axes alone on which all of its mass lies, and of shells, which have their
+  /// mass there.
   [[nodiscard]] Vec3 spin(PanelId panel) const;
   /// N s: what members give up as less of a panel lies on them, what it brings other members apart.
   [[nodiscard]] Vec3 given_up(const MotionMasses::Rehung& panel) const;
@@ -43,6 +45,8 @@ class MotionMomentum {
   [[nodiscard]] bool includes(MemberId member) const;
   [[nodiscard]] Vec3 middle(MemberId member) const;
   [[nodiscard]] Vec6 per_kilogram(MemberId member) const;
+  /// rad/s, as its corners turn about each other; 0 where fewer than three tell.
+  [[nodiscard]] Vec3 spin_of_corners(PanelId panel) const;
 
   MotionSources from_;
   const MotionMasses& masses_;
