@@ -9,7 +9,7 @@ import subprocess
 import convergence
 import output
 
-SCENARIOS = ["house_hit", "house_hit_65", "tower_hit"]
+SCENARIOS = ["house_hit", "house_hit_40", "tower_hit"]
 SAMPLES, QUICK_SAMPLES = 12, 4
 FACTORS = [0.5, 2]
 RATE = 60
