@@ -45,28 +45,28 @@ Vec12 missing_momentum(const FrameSystem& system, const MassModel& masses, int b
 
 }  // namespace
 
-void ChangedMomentum::begin_substep() {
+void ChangedMomentum::forget_part() {
   broken_.clear();
   changed_.clear();
   fixed_end_.clear();
+}
+
+void ChangedMomentum::begin_substep() {
+  forget_part();
   left_.clear();
 }
 
 void ChangedMomentum::begin_part(const FrameSystem& system, const RequestedChanges& changes, double h, int left) {
   for (const ChangedBeam& one : changed_) {
-    const auto i = static_cast<std::size_t>(one.beam);
-    const auto& held = system.model.beams[i].end_stiffness;
-    if (left_.contains(one.beam) || (system.beam_stands[i] != 0 && !(held[0].isZero(0) && held[1].isZero(0)))) continue;
-    const std::vector<BeamLoad>& loads = changes.beam(i).loads;
+    if (left_.contains(one.beam) || is_held(system, one.beam)) continue;
+    const std::vector<BeamLoad>& loads = changes.beam(static_cast<std::size_t>(one.beam)).loads;
     const double later = h * static_cast<double>(left);
     Left gone = *left_with(system, one.beam, loads, h);
     gone.momentum += about_origin(system, one.beam, impulse_of(loads, later));
     gone.ends += later * one.end_rates;
     left_.emplace(one.beam, gone);
   }
-  broken_.clear();
-  changed_.clear();
-  fixed_end_.clear();
+  forget_part();
 }
 
 void ChangedMomentum::remember(const FrameSystem& system, const SystemInertia& inertia, const RequestedChanges& changes,
@@ -81,7 +81,7 @@ void ChangedMomentum::remember(const FrameSystem& system, const SystemInertia& i
     const Mat12 follows = ends_by_rigid_ends(now_is);
     changed_.push_back(
         {beam, follows, momentum_of_beam(system, inertia.masses, beam, follows, motion.v) + brought_to(beam),
-         follows * rigid_end_motion(system, beam, motion.u), follows * rigid_end_motion(system, beam, motion.v)});
+         own_end_motion(system, beam, follows, motion.u), own_end_motion(system, beam, follows, motion.v)});
   }
 }
 

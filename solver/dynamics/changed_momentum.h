@@ -78,6 +78,8 @@ class ChangedMomentum {
       archive(number, follows, at_start, displacements, velocities);
     }
   };
+  /// Of the part of a substep that ended.
+  void forget_part();
   void add_brought(const FrameSystem& system, double h, Eigen::VectorXd& force) const;
 
   std::vector<BrokenJoint> broken_;

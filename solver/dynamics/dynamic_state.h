@@ -98,8 +98,6 @@ struct FrameDynamics::State {
   /// A column for each.
   [[nodiscard]] Eigen::MatrixXd scaled_columns(std::span<const std::vector<Impulse>> forces) const;
   void follow_jump(const Eigen::VectorXd& change);
-  /// The beam is there, and a joint holds it.
-  [[nodiscard]] bool hangs(int beam) const;
   [[nodiscard]] std::optional<ChangedMomentum::Left> left_with(int beam) const;
 
   // substep.cpp

@@ -39,29 +39,29 @@ void load(Archive& archive, Eigen::SparseVector<double>& vector) {
 namespace topple::solver {
 
 void FrameDynamics::State::FollowingFactor::save_to(std::ostream& to) const {
-  const auto& [softened, own_inertia, frame, ratio] = *this;  // inertia: the frame's, and softening
+  const auto& [softened, own_inertia, frame, ratio, followed] = *this;  // inertia: the frame's, and softening
   frame.save_state(to);
   StateWriter archive(to);
-  archive(ratio);
+  archive(ratio, followed);
 }
 
 void FrameDynamics::State::FollowingFactor::load_from(std::istream& from) {
   frame_.load_state(from);
   StateReader archive(from);
-  archive(ratio_);
+  archive(ratio_, followed_);
 }
 
 void FrameDynamics::State::Jumps::save_to(std::ostream& to) const {
-  const auto& [options, softened, factor, followed] = *this;
+  const auto& [options, softened, factor] = *this;
   StateWriter archive(to);
-  archive(softened, followed, factor != nullptr);
+  archive(softened, factor != nullptr);
   if (factor) factor->save_to(to);
 }
 
 void FrameDynamics::State::Jumps::load_from(std::istream& from, const FrameSystem& system) {
   StateReader archive(from);
   bool made = false;
-  archive(softened_, followed_, made);
+  archive(softened_, made);
   factor_.reset();
   if (!made) return;
   factor_ = std::make_unique<FollowingFactor>(system, options_, softened_);
@@ -72,7 +72,7 @@ void FrameDynamics::State::ShorterSubsteps::save_to(std::ostream& to) const {
   StateWriter archive(to);
   archive(factors_.size());
   for (const auto& [parts, one] : factors_) {
-    archive(parts, one.s, one.followed);
+    archive(parts, one.s);
     one.factor->save_to(to);
   }
 }
@@ -85,7 +85,7 @@ void FrameDynamics::State::ShorterSubsteps::load_from(std::istream& from, const 
   for (std::size_t k = 0; k < count; ++k) {
     int parts = 0;
     One one;
-    archive(parts, one.s, one.followed);
+    archive(parts, one.s);
     one.factor = std::make_unique<FollowingFactor>(system, options_, 1 / one.s);
     one.factor->load_from(from);
     factors_.emplace(parts, std::move(one));

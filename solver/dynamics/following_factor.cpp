@@ -48,7 +48,8 @@ void FrameDynamics::State::FollowingFactor::follow_nodes(const FrameSystem& now)
       own().changes.set_support(static_cast<int>(i), now.model.supports[i].stiffness);
 }
 
-void FrameDynamics::State::FollowingFactor::follow(const FrameSystem& now) {
+bool FrameDynamics::State::FollowingFactor::follow(const FrameSystem& now) {
+  if (followed_) return false;
   follow_beams(now);
   follow_plates(now);
   follow_nodes(now);
@@ -59,6 +60,8 @@ void FrameDynamics::State::FollowingFactor::follow(const FrameSystem& now) {
   if (own().system->dofs().equations != now.dofs().equations)
     throw std::logic_error("the factor for impulses has other equations than the frame");
   ratio_ = scale_of(*own().system).cwiseQuotient(scale_of(now));
+  followed_ = true;
+  return true;
 }
 
 void FrameDynamics::State::FollowingFactor::renew() { require_none(own().renew_factor()); }

@@ -14,8 +14,10 @@ struct FrameDynamics::State::FollowingFactor {
   FollowingFactor(const FollowingFactor&) = delete;
   FollowingFactor& operator=(const FollowingFactor&) = delete;
 
-  /// Takes over what has changed in the frame's matrices. Throws Instability.
-  void follow(const FrameSystem& now);
+  /// The frame's matrices are others.
+  void forget_frame() { followed_ = false; }
+  /// Takes over what has changed in them; false: nothing has. Throws Instability.
+  bool follow(const FrameSystem& now);
   /// To be called before solves of a structure that does not change: Reanalysis::State::renew_factor(). Throws
   /// Instability.
   void renew();
@@ -39,6 +41,7 @@ struct FrameDynamics::State::FollowingFactor {
   SystemInertia inertia_;
   Reanalysis frame_;
   Eigen::VectorXd ratio_;  ///< of the scale of its equations to that of the frame's
+  bool followed_ = false;  ///< it has the frame's matrices as they are
 };
 
 }  // namespace topple::solver

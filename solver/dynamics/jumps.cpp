@@ -34,6 +34,10 @@ void FrameDynamics::State::Jumps::set_softened(double softened) {
   factor_.reset();
 }
 
+void FrameDynamics::State::Jumps::forget_frame() {
+  if (factor_) factor_->forget_frame();
+}
+
 Eigen::VectorXd FrameDynamics::State::Jumps::on_mass(const FrameSystem& system, Eigen::VectorXd impulses) {
   for (Eigen::Index e = 0; e < system.dofs().equations; ++e)
     if (!(diagonal_of(system.mass(), e) > 0)) impulses(e) = 0;
@@ -46,12 +50,8 @@ bool FrameDynamics::State::Jumps::damps(const FrameSystem& system) const {
 }
 
 FrameDynamics::State::FollowingFactor& FrameDynamics::State::Jumps::factor(const FrameSystem& system) {
-  if (!factor_) {
-    factor_ = std::make_unique<FollowingFactor>(system, options_, softened_);
-    followed_ = false;
-  }
-  if (!followed_) factor_->follow(system);
-  followed_ = true;
+  if (!factor_) factor_ = std::make_unique<FollowingFactor>(system, options_, softened_);
+  factor_->follow(system);
   factor_->renew();
   return *factor_;
 }

@@ -18,7 +18,7 @@ class FrameDynamics::State::Jumps {
   /// The matrix K + s M has another s, or another d a1.
   void set_softened(double softened);
   /// The frame's matrices are others.
-  void forget_frame() { followed_ = false; }
+  void forget_frame();
 
   /// In the scaled equations: what freedoms without mass are given comes to nothing.
   [[nodiscard]] static Eigen::VectorXd on_mass(const FrameSystem& system, Eigen::VectorXd impulses);
@@ -39,7 +39,6 @@ class FrameDynamics::State::Jumps {
   const AnalysisOptions& options_;
   double softened_;
   std::unique_ptr<FollowingFactor> factor_;  ///< none: not asked for yet
-  bool followed_ = false;                    ///< it has the frame's matrices as they are
 };
 
 }  // namespace topple::solver

@@ -98,21 +98,15 @@ void FrameDynamics::add_momentum(int beam, const Vec6& momentum) {
   state_->changed.bring(beam, momentum);
 }
 
-bool FrameDynamics::State::hangs(int beam) const {
-  const auto i = checked_beam(frame.model(), beam);
-  const auto& ends = system().model.beams[i].end_stiffness;
-  return system().beam_stands[i] != 0 && !(ends[0].isZero(0) && ends[1].isZero(0));
-}
-
 std::optional<ChangedMomentum::Left> FrameDynamics::State::left_with(int beam) const {
   return changed.left_with(system(), beam, core().changes.beam(static_cast<std::size_t>(beam)).loads, method.h);
 }
 
 Vec6 FrameDynamics::beam_momentum(int beam) const {
   const State& state = *state_;
-  if (state.hangs(beam))
-    return momentum_of_beam(state.system(), state.inertia.masses, beam,
-                            ends_by_rigid_ends(model().beams[static_cast<std::size_t>(beam)]), state.current().v) +
+  const Beam& own = model().beams[checked_beam(model(), beam)];
+  if (is_held(state.system(), beam))
+    return momentum_of_beam(state.system(), state.inertia.masses, beam, ends_by_rigid_ends(own), state.current().v) +
            state.changed.brought_to(beam);
   const std::optional<ChangedMomentum::Left> left = state.left_with(beam);
   return left ? left->momentum : Vec6(Vec6::Zero());
@@ -120,14 +114,14 @@ Vec6 FrameDynamics::beam_momentum(int beam) const {
 
 Vec12 FrameDynamics::beam_ends(int beam) const {
   const State& state = *state_;
+  const Beam& own = model().beams[checked_beam(model(), beam)];
   Vec12 ends = Vec12::Zero();
-  if (state.hangs(beam))
-    ends = ends_by_rigid_ends(model().beams[static_cast<std::size_t>(beam)]) *
-           rigid_end_motion(state.system(), beam, state.current().u);
+  if (is_held(state.system(), beam))
+    ends = own_end_motion(state.system(), beam, ends_by_rigid_ends(own), state.current().u);
   else if (const std::optional<ChangedMomentum::Left> left = state.left_with(beam))
     ends = left->ends;
-  const Mat3& axes = model().beams[static_cast<std::size_t>(beam)].axes;
-  for (Eigen::Index part = 0; part < 12; part += 3) ends.segment<3>(part) = axes.transpose() * ends.segment<3>(part);
+  for (Eigen::Index part = 0; part < 12; part += 3)
+    ends.segment<3>(part) = own.axes.transpose() * ends.segment<3>(part);
   return ends;
 }
 

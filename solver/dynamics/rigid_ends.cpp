@@ -19,6 +19,15 @@ Vec12 rigid_end_motion(const FrameSystem& system, int beam, const Eigen::VectorX
                                  system.node_displacement_of_scaled(own.node[1], scaled));
 }
 
+Vec12 own_end_motion(const FrameSystem& system, int beam, const Mat12& follows, const Eigen::VectorXd& scaled) {
+  return follows * rigid_end_motion(system, beam, scaled);
+}
+
+bool is_held(const FrameSystem& system, int beam) {
+  const auto& ends = beam_of(system, beam).end_stiffness;
+  return system.beam_stands[static_cast<std::size_t>(beam)] != 0 && !(ends[0].isZero(0) && ends[1].isZero(0));
+}
+
 void add_on_rigid_ends(const FrameSystem& system, int beam, const Vec12& local, Eigen::VectorXd& force) {
   const Beam& own = beam_of(system, beam);
   const Vec12 global = node_forces(own, local);
@@ -53,8 +62,8 @@ Mat12 mass_of_beam(const FrameSystem& system, const MassModel& masses, int beam)
 
 Vec6 momentum_of_beam(const FrameSystem& system, const MassModel& masses, int beam, const Mat12& follows,
                       const Eigen::VectorXd& velocities) {
-  const Vec12 ends = follows * rigid_end_motion(system, beam, velocities);
-  return about_origin(system, beam, mass_of_beam(system, masses, beam) * ends);
+  return about_origin(system, beam,
+                      mass_of_beam(system, masses, beam) * own_end_motion(system, beam, follows, velocities));
 }
 
 }  // namespace topple::solver

@@ -7,6 +7,11 @@ namespace topple::solver {
 
 /// Of the beam's rigid ends, local, in a motion of the scaled equations.
 [[nodiscard]] Vec12 rigid_end_motion(const FrameSystem& system, int beam, const Eigen::VectorXd& scaled);
+/// Of the beam's own ends, local, which follow its rigid ends as `follows` has it (ends_by_rigid_ends()).
+[[nodiscard]] Vec12 own_end_motion(const FrameSystem& system, int beam, const Mat12& follows,
+                                   const Eigen::VectorXd& scaled);
+/// The beam is there, and a joint holds it.
+[[nodiscard]] bool is_held(const FrameSystem& system, int beam);
 /// Adds local forces on the rigid ends to those on the numbered freedoms, not scaled; what is on a node that has left
 /// is left out.
 void add_on_rigid_ends(const FrameSystem& system, int beam, const Vec12& local, Eigen::VectorXd& force);

@@ -1,7 +1,5 @@
 #include "dynamics/shorter_substeps.h"
 
-#include <utility>
-
 #include "dynamics/following_factor.h"
 
 namespace topple::solver {
@@ -10,7 +8,7 @@ FrameDynamics::State::ShorterSubsteps::ShorterSubsteps(const AnalysisOptions& op
 FrameDynamics::State::ShorterSubsteps::~ShorterSubsteps() = default;
 
 void FrameDynamics::State::ShorterSubsteps::forget_frame() {
-  for (auto& [parts, one] : factors_) one.followed = false;
+  for (auto& [parts, one] : factors_) one.factor->forget_frame();
 }
 
 void FrameDynamics::State::ShorterSubsteps::solve(const FrameSystem& system, int parts, double s, Eigen::VectorXd& x) {
@@ -19,10 +17,7 @@ void FrameDynamics::State::ShorterSubsteps::solve(const FrameSystem& system, int
     one.factor = std::make_unique<FollowingFactor>(system, options_, 1 / s);
     one.s = s;
   }
-  if (!std::exchange(one.followed, true)) {
-    one.factor->follow(system);
-    one.factor->renew();
-  }
+  if (one.factor->follow(system)) one.factor->renew();
   one.factor->solve(x);
   x /= s;
 }

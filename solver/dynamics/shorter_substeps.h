@@ -29,8 +29,7 @@ class FrameDynamics::State::ShorterSubsteps {
  private:
   struct One {
     std::unique_ptr<FollowingFactor> factor;
-    double s = 0;           ///< 1/s2
-    bool followed = false;  ///< it has the frame's matrices as they are
+    double s = 0;  ///< 1/s2
   };
   const AnalysisOptions& options_;
   std::map<int, One> factors_;  ///< by parts

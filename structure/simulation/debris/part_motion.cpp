@@ -1,9 +1,8 @@
 #include "simulation/debris/part_motion.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include "model/point_inertia.h"
+#include "standing/motion/rigid_displacement_fit.h"
 
 namespace topple::structure {
 namespace {
@@ -27,30 +26,16 @@ PartMotion nearest(const StandingFrame& frame, Part part, const Vec3& at, const 
   }
   PartMotion motion;
   if (nodes.empty()) return motion;
-  const auto count = static_cast<double>(nodes.size());
-  Vec3 centre = Vec3::Zero();
+  RigidDisplacementFit places;
+  Vec3 rotation = Vec3::Zero();
   for (const NodeId node : nodes) {
     const Vec6 u = value(node);
-    centre += building[node].position / count;
-    motion.moved += u.head<3>() / count;
-    motion.turned += u.tail<3>() / count;
+    places.add_point(1, building[node].position, u.head<3>());
+    rotation += u.tail<3>() / static_cast<double>(nodes.size());
   }
   // Where its nodes' places tell of a turn, that counts; about a line of them their rotations do.
-  Mat3 spread = Mat3::Zero();
-  Vec3 turning = Vec3::Zero();
-  for (const NodeId node : nodes) {
-    const Vec3 r = building[node].position - centre;
-    spread += point_inertia(1, r);
-    turning += r.cross(Vec3(value(node).template head<3>() - motion.moved));
-  }
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    constexpr double on_a_line = 1e-6;
-    if (!(axes.eigenvalues()(axis) > on_a_line * axes.eigenvalues()(2))) continue;
-    const Vec3 along = axes.eigenvectors().col(axis);
-    motion.turned += (along.dot(turning) / axes.eigenvalues()(axis) - along.dot(motion.turned)) * along;
-  }
-  motion.moved += motion.turned.cross(at - centre);
+  motion.turned = places.turned(rotation);
+  motion.moved = places.moved() + motion.turned.cross(at - places.centre());
   return motion;
 }
 

@@ -88,17 +88,14 @@ Vec3 MotionMomentum::spin(PanelId panel) const {
 }
 
 Vec3 MotionMomentum::spin_of_corners(PanelId panel) const {
-  std::vector<Vec3> places, velocities;
+  RigidDisplacementFit corners;
+  int told = 0;
   for (const NodeId node : from_.building[panel].nodes) {
     if (from_.parts.segments.degree(node) == 0) continue;  // nothing tells how it moves
-    places.push_back(from_.building[node].position);
-    velocities.emplace_back(motion_.velocity(node).head<3>());
+    corners.add_point(1, from_.building[node].position, motion_.velocity(node).head<3>());
+    ++told;
   }
-  if (places.size() < 3) return Vec3::Zero();
-  const Vec3 middle = mean_of(places), mean = mean_of(velocities);
-  Vec3 turning = Vec3::Zero();
-  for (std::size_t i = 0; i < places.size(); ++i) turning += (places[i] - middle).cross(velocities[i] - mean);
-  return inertia_of(places, middle, 1).ldlt().solve(turning);
+  return told < 3 ? Vec3(Vec3::Zero()) : corners.turned();
 }
 
 Vec3 MotionMomentum::velocity(PanelId panel) const {

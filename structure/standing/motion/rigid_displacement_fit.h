@@ -30,6 +30,7 @@ class RigidDisplacementFit {
     inertia_ += inertia + point_inertia(mass, centre);
     turning_ += momentum.tail<3>();
   }
+  [[nodiscard]] Vec3 centre() const { return first_ / mass_; }
   /// m, of the mean of its mass; 0 without mass.
   [[nodiscard]] Vec3 moved() const { return mass_ > 0 ? Vec3(moved_ / mass_) : Vec3(Vec3::Zero()); }
   /// rad; `else_turned`: about what has no inertia.
