@@ -1,5 +1,6 @@
 #include "standing/motion/component_damping.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,6 +17,13 @@ double strain_energy(const solver::Beam& beam, const solver::Vec12& f) {
     return (a * a + a * b + b * b) * L / (6 * E * I);
   };
   return f(0) * f(0) * L / (2 * E * beam.area) + bending(4, beam.Iy) + bending(5, beam.Iz);
+}
+
+/// So many modes are looked through for one of the whole, at most: parts that hang loosely are few.
+constexpr int most_loose = 8;
+
+bool moves_whole(const solver::VibrationMode& mode, double share) {
+  return std::any_of(mode.mass_share.begin(), mode.mass_share.end(), [&](double own) { return own > share; });
 }
 
 }  // namespace
@@ -46,12 +54,15 @@ ComponentDamping::Known ComponentDamping::find(int c, const solver::FrameModel& 
   still.keep_energy = false;
   Known found;
   found.holding = holding(c);
-  const std::vector<solver::VibrationMode> modes = solver::natural_modes(frame, masses, 1, still.analysis).modes;
+  std::vector<solver::VibrationMode> modes = solver::natural_modes(frame, masses, 1, still.analysis).modes;
   if (modes.empty()) return found;  // supports hold every node
   found.first_frequency = modes.front().angular_frequency;
+  const auto of_whole = [&](const solver::VibrationMode& mode) { return moves_whole(mode, settings_.mode_of_whole); };
+  if (!of_whole(modes.front())) modes = solver::natural_modes(frame, masses, most_loose, still.analysis).modes;
+  const auto lowest = std::find_if(modes.begin(), modes.end() - 1, of_whole);
   const double quotient = solver::FrameDynamics(frame, masses, still).rayleigh_quotient(rest);
-  const double shape = quotient > 0 ? std::sqrt(quotient) : found.first_frequency;
-  found.damping = solver::rayleigh_damping(share(c), found.first_frequency, shape);
+  const double shape = quotient > 0 ? std::sqrt(quotient) : lowest->angular_frequency;
+  found.damping = solver::rayleigh_damping(share(c), lowest->angular_frequency, shape);
   return found;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Rayleigh damping of what moves: found for a component as it stood when it began to move, and anew where joints have
 // broken since. The share of critical damping is that of its materials, each by the energy that it stores under the
-// loads; it holds at the lowest frequency and at that of the static shape.
+// loads; it holds at the lowest frequency of what is no loose part alone, and at that of the static shape.
 #include <map>
 #include <vector>
 
