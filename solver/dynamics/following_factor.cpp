@@ -58,7 +58,7 @@ bool FrameDynamics::State::FollowingFactor::follow(const FrameSystem& now) {
     require_none(own().mechanism);
   }
   if (own().system->dofs().equations != now.dofs().equations)
-    throw std::logic_error("the factor for impulses has other equations than the frame");
+    throw std::logic_error("a factor that follows the frame has other equations than it");
   ratio_ = scale_of(*own().system).cwiseQuotient(scale_of(now));
   followed_ = true;
   return true;

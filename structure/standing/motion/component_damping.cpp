@@ -19,9 +19,6 @@ double strain_energy(const solver::Beam& beam, const solver::Vec12& f) {
   return f(0) * f(0) * L / (2 * E * beam.area) + bending(4, beam.Iy) + bending(5, beam.Iz);
 }
 
-/// So many modes are looked through for one of the whole, at most: parts that hang loosely are few.
-constexpr int most_loose = 8;
-
 bool moves_whole(const solver::VibrationMode& mode, double share) {
   return std::any_of(mode.mass_share.begin(), mode.mass_share.end(), [&](double own) { return own > share; });
 }
@@ -58,7 +55,8 @@ ComponentDamping::Known ComponentDamping::find(int c, const solver::FrameModel& 
   if (modes.empty()) return found;  // supports hold every node
   found.first_frequency = modes.front().angular_frequency;
   const auto of_whole = [&](const solver::VibrationMode& mode) { return moves_whole(mode, settings_.mode_of_whole); };
-  if (!of_whole(modes.front())) modes = solver::natural_modes(frame, masses, most_loose, still.analysis).modes;
+  if (!of_whole(modes.front()))
+    modes = solver::natural_modes(frame, masses, settings_.modes_sought, still.analysis).modes;
   const auto lowest = std::find_if(modes.begin(), modes.end() - 1, of_whole);
   const double quotient = solver::FrameDynamics(frame, masses, still).rayleigh_quotient(rest);
   const double shape = quotient > 0 ? std::sqrt(quotient) : lowest->angular_frequency;

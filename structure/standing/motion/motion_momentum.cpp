@@ -1,11 +1,9 @@
 #include "standing/motion/motion_momentum.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <map>
-#include <span>
 
 #include "model/point_inertia.h"
 #include "standing/motion/rigid_displacement_fit.h"
@@ -26,22 +24,6 @@ Vec6 MotionMomentum::per_kilogram(MemberId member) const {
 Vec6 MotionMomentum::of(MemberId member) const { return masses_.own(member) * per_kilogram(member); }
 
 namespace {
-
-/// sum of m (r^2 1 - r r') of points about their centre; `weight` each.
-Mat3 inertia_of(std::span<const Vec3> points, const Vec3& centre, double weight) {
-  Mat3 sum = Mat3::Zero();
-  for (const Vec3& point : points) {
-    const Vec3 r = point - centre;
-    sum += point_inertia(weight, r);
-  }
-  return sum;
-}
-
-Vec3 mean_of(std::span<const Vec3> points) {
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& point : points) sum += point;
-  return sum / static_cast<double>(points.size());
-}
 
 /// The places of a four-cornered plate that have its second moments, a quarter of its mass each (Gauss's two by two).
 std::array<Vec3, 4> quarters(const std::array<Vec3, 4>& corner) {
@@ -67,8 +49,13 @@ Vec6 MotionMomentum::of(PanelId panel) const {
   std::array<Vec3, 4> corner;
   for (std::size_t i = 0; i < 4; ++i) corner[i] = from_.building[from_.building[panel].nodes[i]].position;
   const std::array<Vec3, 4> mass_at = quarters(corner);
-  const Vec3 centre = mean_of(mass_at), linear = sum.head<3>();
-  sum.tail<3>() = centre.cross(linear) + inertia_of(mass_at, centre, from_.loads.mass(panel) / 4) * spin(panel);
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& place : mass_at) centre += place;
+  centre /= 4;
+  Mat3 inertia = Mat3::Zero();
+  for (const Vec3& place : mass_at) inertia += point_inertia(from_.loads.mass(panel) / 4, place - centre);
+  const Vec3 linear = sum.head<3>();
+  sum.tail<3>() = centre.cross(linear) + inertia * spin(panel);
   return sum;
 }
 

@@ -33,6 +33,9 @@ struct MotionSettings {
   /// all else away (a damaged house swayed at 0.35 % for a minute). Larger: the modes of large parts count as theirs
   /// alone.
   double mode_of_whole = 0.05;
+  /// Modes, the lowest first, among which one of the building is sought; where none is, the last of them counts. Parts
+  /// that hang loosely are few. Fewer: more of these take damping away; more: dearer.
+  int modes_sought = 8;
   /// Pa: at least this stiff is a metal (aluminium has 70 GPa, the stiffest concrete 50).
   double metal_modulus = 60e9;
   /// Of each joint's capacity: what counts as rest. Smaller: it moves on for longer, with the same breaks.
@@ -50,11 +53,11 @@ struct MotionSettings {
 template <class Archive>
 void serialize(Archive& archive, MotionSettings& settings) {
   auto& [longest_substep, substep_error, substep_parts, shortest_impulse, spectral_radius, metal_damping, other_damping,
-         mode_of_whole, metal_modulus, rest_utilisation, rest_displacement, rest_looks, largest_turn, falling_turn] =
-      settings;
+         mode_of_whole, modes_sought, metal_modulus, rest_utilisation, rest_displacement, rest_looks, largest_turn,
+         falling_turn] = settings;
   archive(longest_substep, substep_error, substep_parts, shortest_impulse, spectral_radius, metal_damping,
-          other_damping, mode_of_whole, metal_modulus, rest_utilisation, rest_displacement, rest_looks, largest_turn,
-          falling_turn);
+          other_damping, mode_of_whole, modes_sought, metal_modulus, rest_utilisation, rest_displacement, rest_looks,
+          largest_turn, falling_turn);
 }
 
 #ifdef TOPPLE_VARIED_CONSTANTS  // benchmarks/constants: each halved and doubled

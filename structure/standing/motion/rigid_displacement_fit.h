@@ -13,11 +13,9 @@ class RigidDisplacementFit {
  public:
   /// A part with its inertia about its own centre, kg m2.
   void add(double mass, const Vec3& centre, const Mat3& inertia, const Vec3& moved, const Vec3& turned) {
-    mass_ += mass;
-    first_ += mass * centre;
-    moved_ += mass * moved;
-    inertia_ += inertia + point_inertia(mass, centre);
-    turning_ += inertia * turned + mass * centre.cross(moved);
+    Vec6 moments;
+    moments << mass * moved, inertia * turned + mass * centre.cross(moved);
+    add_momentum(mass, centre, inertia, moments);
   }
   void add_point(double mass, const Vec3& place, const Vec3& moved) {
     add(mass, place, Mat3::Zero(), moved, Vec3::Zero());

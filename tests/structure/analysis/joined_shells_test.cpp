@@ -7,7 +7,6 @@
 
 #include "simulation_run.h"
 #include "support/scratch_folder.h"
-#include "support/source_tree.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/error.h"
 #include "topple/structure/formats/files.h"
@@ -360,8 +359,7 @@ TEST_CASE("a scenario cuts a member along a wall where it says, and names all of
 }
 
 TEST_CASE("the house of shell walls is shot through, loses a post, and what is left of it stands") {
-  const auto [building, scenario] =
-      read_scenario(topple::test::in_source_tree("models/scenarios/shell_house_hit.json"));
+  const auto [building, scenario] = read_scenario(find_scenario("shell_house_hit"));
   Simulation simulation(building, scenario);
   double whole = 0;
   for (std::size_t p = 0; p < building.panels.size(); ++p) whole += simulation.frame().mass(PanelId(p));

@@ -118,7 +118,7 @@ TEST_CASE("a mesh bound by name follows that part alone") {
 }
 
 TEST_CASE("the drawn facade of the seed building comes down with it, closed and whole") {
-  auto [building, scenario] = read_scenario(topple::test::in_source_tree("models/scenarios/seed_house_hit.json"));
+  auto [building, scenario] = read_scenario(find_scenario("seed_house_hit"));
   Simulation simulation(std::move(building), std::move(scenario));
   VisualMesh model(simulation.building(),
                    read_drawn_meshes(simulation.building(), topple::test::in_source_tree("models/seed_house.json")));

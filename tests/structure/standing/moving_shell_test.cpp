@@ -12,7 +12,6 @@
 #include "structure/frame_builder.h"
 #include "structure/simulation_run.h"
 #include "structure/unbraced_rules.h"
-#include "support/source_tree.h"
 #include "topple/solver/modes.h"
 #include "topple/structure/formats/files.h"
 #include "topple/structure/frame.h"
@@ -296,7 +295,7 @@ TEST_CASE("A chunk leaves a slab that turns with the velocity of its place, and 
 }
 
 TEST_CASE("A ball goes through a shell wall that moves, chunks fly, and the wall comes to rest") {
-  auto [model, scenario] = read_scenario(in_source_tree("models/scenarios/wall_hit.json"));
+  auto [model, scenario] = read_scenario(find_scenario("wall_hit"));
   scenario.standing = StandingRule::dynamics;
   Simulation simulation(model, scenario);
   const double whole = simulation.frame().mass(PanelId(0u));

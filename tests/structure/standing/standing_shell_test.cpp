@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "standing/panel_superelement.h"
-#include "support/source_tree.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/formats/files.h"
 #include "topple/structure/simulation.h"
@@ -71,9 +70,7 @@ PanelRemains with_hole() {
   return remains;
 }
 
-Scenario shipped(const std::string& name) {
-  return read_scenario(topple::test::in_source_tree(std::string("models/scenarios/") + name + ".json")).second;
-}
+Scenario shipped(const std::string& name) { return read_scenario(find_scenario(name)).second; }
 
 const SimulationEvent* find(const Simulation& simulation, SimulationEvent::Kind kind) {
   for (const SimulationEvent& event : simulation.events())
@@ -170,8 +167,7 @@ TEST_CASE("a push on a shell panel gives way as the global mesh does") {
 TEST_CASE("the wall is shot through with each method, where the ball touches it, and stands on") {
   for (const std::string name : {"wall_hit", "wall_hit_quadrilateral", "wall_hit_local"}) {
     CAPTURE(name);
-    const auto [model, scenario] =
-        read_scenario(topple::test::in_source_tree(std::string("models/scenarios/") + name + ".json"));
+    const auto [model, scenario] = read_scenario(find_scenario(name));
     Simulation simulation(model, scenario);
     const double whole = simulation.frame().mass(PanelId(0u));
     while (!simulation.finished() && !find(simulation, SimulationEvent::Kind::panel_fractured)) simulation.step();
@@ -206,7 +202,7 @@ TEST_CASE("a ball leaves a hole that it fits through, however coarse the cells")
   for (const auto method :
        {topple::fracture::Method::voronoi, topple::fracture::Method::quadrilateral, topple::fracture::Method::local}) {
     CAPTURE(static_cast<int>(method));
-    const auto [model, scenario] = read_scenario(topple::test::in_source_tree("models/scenarios/wall_hit.json"));
+    const auto [model, scenario] = read_scenario(find_scenario("wall_hit"));
     Scenario coarse = scenario;
     coarse.fracture->method = method;
     coarse.fracture->cell = 1.3;
@@ -227,7 +223,7 @@ TEST_CASE("a ball leaves a hole that it fits through, however coarse the cells")
 }
 
 TEST_CASE("a click breaks the wall where its ray meets it") {
-  const auto [model, scenario] = read_scenario(topple::test::in_source_tree("models/scenarios/wall_hit.json"));
+  const auto [model, scenario] = read_scenario(find_scenario("wall_hit"));
   Scenario quiet = scenario;
   quiet.events.clear();
   quiet.until_rest = false;
