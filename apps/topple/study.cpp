@@ -187,8 +187,8 @@ int study_on_ranks(const StudyOptions& options) {
     folder.emplace(options.folder, std::vector{all.file}, result_names());
     journal = std::make_unique<structure::StudyJournal>(all.task, options.folder, found_of(options));
   });
-  // Rank 0 tells, and its status is the job's: mpirun ends all ranks as soon as one ends with an error, and one of these
-  // could end before rank 0 has written what is wrong.
+  // Rank 0 tells, and its status is the job's: mpirun ends all ranks as soon as one ends with an error, and one of
+  // these could end before rank 0 has written what is wrong.
   if (!ready || !ranks.same_on_all(all.task.fingerprint)) return success;
   if (ranks.rank() != 0) {
     ranks.work(all.task, all.run);

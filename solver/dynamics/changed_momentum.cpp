@@ -115,8 +115,8 @@ auto ChangedMomentum::left_with(const FrameSystem& system, int beam, const std::
   return Left{gone->momentum + about_origin(system, beam, impulse), gone->ends + h * gone->end_rates};
 }
 
-/// Momentum that came to beams, as forces over a substep on the ends that hold them.
-void ChangedMomentum::add_brought(const FrameSystem& system, double h, Eigen::VectorXd& force) const {
+/// Momentum that came to beams, on the ends that hold them.
+void ChangedMomentum::add_brought(const FrameSystem& system, Eigen::VectorXd& impulse) const {
   for (const auto& [beam, momentum] : brought_) {
     const Beam& own = system.model.beams[static_cast<std::size_t>(beam)];
     std::vector<int> held;
@@ -124,22 +124,21 @@ void ChangedMomentum::add_brought(const FrameSystem& system, double h, Eigen::Ve
       if (!own.end_stiffness[end].isZero(0) && system.node_stands[static_cast<std::size_t>(own.node[end])] != 0)
         held.push_back(own.node[end]);
     if (held.empty()) continue;  // it left
-    const Vec6 share = momentum / (h * static_cast<double>(held.size()));
+    const Vec6 share = momentum / static_cast<double>(held.size());
     const Vec3 linear = share.head<3>();
     Vec3 turning = share.tail<3>();
     for (const int node : held)
       turning -= system.model.nodes[static_cast<std::size_t>(node)].cross(linear) / static_cast<double>(held.size());
     for (const int node : held) {
-      Vec6 own_force;
-      own_force << linear, turning;
-      system.dofs().add_node_force(node, own_force, force.data());
+      Vec6 on_node;
+      on_node << linear, turning;
+      system.dofs().add_node_force(node, on_node, impulse.data());
     }
   }
 }
 
 /// Forces of joints until they broke act on the node and on the beam's own end, which hands it to its other node.
-Eigen::VectorXd ChangedMomentum::load(const FrameSystem& system, const SystemInertia& inertia, double h,
-                                      const Eigen::VectorXd& velocities) {
+Eigen::VectorXd ChangedMomentum::load(const FrameSystem& system) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(system.dofs().equations + system.dofs().held);
   fixed_end_.clear();
   for (const BrokenJoint& joint : broken_) {
@@ -157,11 +156,22 @@ Eigen::VectorXd ChangedMomentum::load(const FrameSystem& system, const SystemIne
     add_on_rigid_ends(system, joint.beam, -fixed, force);
     fixed_end_.try_emplace(joint.beam, Vec12::Zero()).first->second += fixed;
   }
+  return force;
+}
+
+Eigen::VectorXd ChangedMomentum::impulses(const FrameSystem& system, const SystemInertia& inertia,
+                                          const Eigen::VectorXd& velocities) const {
+  Eigen::VectorXd impulse = Eigen::VectorXd::Zero(system.dofs().equations + system.dofs().held);
   for (const ChangedBeam& change : changed_)
     add_on_rigid_ends(system, change.beam,
-                      missing_momentum(system, inertia.masses, change.beam, change.followed, velocities) / h, force);
-  add_brought(system, h, force);
-  return force;
+                      missing_momentum(system, inertia.masses, change.beam, change.followed, velocities), impulse);
+  add_brought(system, impulse);
+  return impulse;
+}
+
+void ChangedMomentum::forget_impulses(const FrameSystem& system) {
+  brought_.clear();
+  std::erase_if(changed_, [&](const ChangedBeam& change) { return is_held(system, change.beam); });
 }
 
 }  // namespace topple::solver

@@ -1,7 +1,7 @@
 #pragma once
 // Momentum that a frame's velocities leave out when it changes within a substep: a joint's force acts until it breaks,
-// a beam that swings from one end alone leaves its nodes behind, mass brings its own along. Beside what follows it is a
-// load over that substep.
+// a beam that swings from one end alone leaves its nodes behind, mass brings its own along. The force is a load over
+// that substep; the rest are impulses at its start.
 #include <map>
 #include <optional>
 #include <vector>
@@ -28,12 +28,15 @@ class ChangedMomentum {
   /// FrameDynamics::add_momentum().
   void bring(int beam, const Vec6& momentum);
   [[nodiscard]] bool any_brought() const { return !brought_.empty(); }
-  /// It has acted.
-  void forget_brought() { brought_.clear(); }
 
-  /// The load over a substep of length h: per equation, then per held freedom; not scaled.
-  [[nodiscard]] Eigen::VectorXd load(const FrameSystem& system, const SystemInertia& inertia, double h,
-                                     const Eigen::VectorXd& velocities);
+  // Per equation, then per held freedom; not scaled.
+  /// Forces over the substep.
+  [[nodiscard]] Eigen::VectorXd load(const FrameSystem& system);
+  /// Impulses: the momentum that these velocities leave out, beside what left.
+  [[nodiscard]] Eigen::VectorXd impulses(const FrameSystem& system, const SystemInertia& inertia,
+                                         const Eigen::VectorXd& velocities) const;
+  /// The velocities have them all now.
+  void forget_impulses(const FrameSystem& system);
   /// Of a beam that bears the force of its broken end in that load: fixed-end forces, local.
   [[nodiscard]] Vec12 fixed_end(int beam) const;
   [[nodiscard]] Vec6 brought_to(int beam) const;
@@ -80,7 +83,7 @@ class ChangedMomentum {
   };
   /// Of the part of a substep that ended.
   void forget_part();
-  void add_brought(const FrameSystem& system, double h, Eigen::VectorXd& force) const;
+  void add_brought(const FrameSystem& system, Eigen::VectorXd& impulse) const;
 
   std::vector<BrokenJoint> broken_;
   std::vector<ChangedBeam> changed_;

@@ -69,14 +69,16 @@ struct FrameDynamics::State {
   }
 
   // structural_change.cpp
-  /// Takes over what changed since the last substep, or within it.
-  void apply_changes();
+  /// Takes over what changed since the last substep, or within the one under way, which then begins with the motion
+  /// `start`, before anything broke in it. True: the motion began anew, as more changed than loads.
+  bool apply_changes(const MotionState* start = nullptr);
   void renumber();
   void clear_dropped();
   void set_method(const GeneralizedAlpha& other);
-  void find_substep_load();
   void begin_substep();
+  /// With all that came since the last one.
   void begin_changed();
+  void begin_motion_anew();
   /// The motion at the start of the next substep is another one, or what it is read with.
   void forget_motion();
 

@@ -75,8 +75,7 @@ void FrameDynamics::State::require_undivided() const {
 
 FrameDynamics::FrameDynamics(FrameModel model, MassModel masses, DynamicOptions options)
     : state_(std::make_unique<State>(std::move(model), std::move(masses), std::move(options))) {
-  state_->begin_substep();
-  state_->apply_changes();
+  state_->begin_changed();
 }
 FrameDynamics::State::~State() = default;
 FrameDynamics::~FrameDynamics() = default;
@@ -127,8 +126,7 @@ void FrameDynamics::set_plastic_rotation(int beam, int end, int component, doubl
   if (component < 3 || component > 5)
     throw std::invalid_argument("a plastic rotation is component 3 to 5, not " + std::to_string(component));
   if (!std::isfinite(rotation)) throw std::invalid_argument("a plastic rotation must be finite");
-  state.begin_substep();
-  state.apply_changes();
+  state.begin_changed();
   PlasticKinks& kinks = state.kinks;
   kinks.set(state.system(), kinks.number(model(), beam, static_cast<std::size_t>(end), component), rotation);
   state.stored_energy();
@@ -162,8 +160,7 @@ void FrameDynamics::set_damping(const RayleighDamping& damping) {
   State& state = *state_;
   state.options.damping.mass = damping.mass;
   if (damping.stiffness == state.options.damping.stiffness) return;
-  state.begin_substep();
-  state.apply_changes();
+  state.begin_changed();
   state.options.damping.stiffness = damping.stiffness;
   state.set_method({state.whole.h, state.options.spectral_radius, damping.stiffness});
 }
@@ -173,8 +170,7 @@ void FrameDynamics::set_state(const std::vector<Vec6>& displacements, const std:
   const std::size_t count = state.frame.model().nodes.size();
   if (displacements.size() != count || velocities.size() != count)
     throw std::invalid_argument("a state has six displacements and six velocities for each node");
-  state.begin_substep();
-  state.apply_changes();
+  state.begin_changed();
   state.started_at = displacements;
   state.kinks.start_here();
   state.before.u = scaled_displacements(state.system(), displacements);
@@ -202,8 +198,7 @@ int FrameDynamics::add_ground_acceleration(const Vec3& direction) {
 int FrameDynamics::add_holding_force() {
   State& state = *state_;
   state.require_undivided();
-  state.begin_substep();
-  state.apply_changes();
+  state.begin_changed();
   SideBySide<1> u = state.current().u.transpose(), Au, Mu;
   multiply<1>(state.system().matrix(), u, Au);
   multiply<1>(state.system().mass(), u, Mu);
@@ -318,8 +313,7 @@ Vec6 FrameDynamics::momentum() const {
 const DynamicEnergy& FrameDynamics::energy() const { return state_->ledger.terms(); }
 double FrameDynamics::work_of_present_loads() {
   State& state = *state_;
-  state.begin_substep();
-  state.apply_changes();
+  state.begin_changed();
   double work = state.constant_load.dot(state.current().u - scaled_displacements(state.system(), state.started_at));
   state.kinks.add_work([&](std::size_t beam) { return state.core().load.fixed_end(beam); }, work);
   return work;

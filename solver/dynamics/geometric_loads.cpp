@@ -53,8 +53,7 @@ void FrameDynamics::State::advance_second_order(const JointLaw* law) {
 double FrameDynamics::geometric_work_to(const std::vector<Vec6>& displacements) {
   State& state = *state_;
   if (!state.options.second_order) return 0;
-  state.begin_substep();
-  state.apply_changes();
+  state.begin_changed();
   state.evaluate_nodes();
   const Eigen::VectorXd way = scaled_displacements(state.system(), displacements) - state.current().u;
   return 0.5 *

@@ -63,14 +63,11 @@ Eigen::MatrixXd FrameDynamics::substep_mobility(std::span<const std::vector<Impu
 
 void FrameDynamics::strike(std::span<const Impulse> impulses) {
   State& state = *state_;
-  // What changed comes first; the momentum that it leaves out is an impulse here, and no load of a substep to come.
   state.begin_changed();
   const FrameSystem& system = state.system();
   const Eigen::VectorXd own = State::Jumps::on_mass(system, state.scaled_impulses(impulses)),
                         of_changes =
-                            State::Jumps::on_mass(system, state.method.h * state.substep_load +
-                                                              state.scaled_impulses(std::exchange(state.waiting, {})));
-  state.changed.forget_brought();
+                            State::Jumps::on_mass(system, state.scaled_impulses(std::exchange(state.waiting, {})));
   if ((own + of_changes).isZero(0)) return;
   const Eigen::VectorXd change = state.jumps->velocities(system, own + of_changes);
   const Eigen::VectorXd mean = state.before.v + change / 2;
@@ -80,7 +77,6 @@ void FrameDynamics::strike(std::span<const Impulse> impulses) {
   energy.struck += own.dot(mean);
   energy.freed -= of_changes.dot(mean);
   energy.damped += (own + of_changes - inert.row(0).transpose()).dot(mean);
-  state.substep_load.setZero();
   state.before.v += change;
   state.follow_jump(change);
   state.forget_motion();

@@ -17,12 +17,38 @@ void FrameDynamics::State::begin_substep() {
   kinks.begin_substep();
 }
 
-/// With all that came since the last one.
 void FrameDynamics::State::begin_changed() {
   begin_substep();
-  const bool changes = !prepared || core().pending();
-  apply_changes();
-  if (!changes && changed.any_brought()) find_substep_load();
+  if (!apply_changes() && changed.any_brought()) {
+    const double stored = stored_energy();
+    begin_motion_anew();
+    if (options.keep_energy) ledger.terms().freed += stored - stored_energy();
+  }
+  changed.forget_impulses(system());
+}
+
+/// At an instant at which masses, stiffnesses or joints change: momentum that the velocities leave out is shared at
+/// once, and accelerations are those of what stands from now on. Those of a light node would throw what a beam that
+/// lost its other end hangs on it, and an impulse spread over the substep is followed by its like of the other sign: of
+/// either the method makes energy, by an amount that hangs on the substep.
+void FrameDynamics::State::begin_motion_anew() {
+  const Eigen::VectorXd impulse = scaled_force(system(), changed.impulses(system(), inertia, before.v));
+  if (!impulse.isZero(0)) before.v += jumps->velocities(system(), Jumps::on_mass(system(), impulse));
+  forget_motion();
+  Eigen::VectorXd force = constant_load + substep_load;
+  patterns.find(system());
+  patterns.add_to(1, force);
+  kinks.add_start(system(), force);
+  if (options.second_order) {
+    nodes.set_start(system(), before);
+    force += find_geometric_load(nodes.start().u, false);
+  }
+  const SideBySide<8>& products = ledger.products(system(), before);
+  const double a0 = options.damping.mass, a1 = options.damping.stiffness, s = inertia.factor;
+  force -= (products.row(4) - s * products.row(0) + a1 * (products.row(5) - s * products.row(1)) + a0 * products.row(1))
+               .transpose();
+  before.a = jumps->velocities(system(), Jumps::on_mass(system(), force));
+  forget_motion();
 }
 
 void FrameDynamics::State::forget_motion() {
@@ -31,8 +57,8 @@ void FrameDynamics::State::forget_motion() {
   foreseen.clear();
 }
 
-void FrameDynamics::State::apply_changes() {
-  if (prepared && !core().pending()) return;
+bool FrameDynamics::State::apply_changes(const MotionState* start) {
+  if (prepared && !core().pending()) return false;
   if (!prepared) {
     renumber();
     prepared = true;
@@ -40,9 +66,11 @@ void FrameDynamics::State::apply_changes() {
     before.v = before.a = before.u;
     now = before;
     substep_load.setZero(equations());
-    return;
+    return false;
   }
   const double stored = stored_energy();
+  if (start != nullptr) before = *start;
+  const std::uint64_t changes = counters.changes;
   changed.remember(system(), inertia, core().changes, before);
   if (const std::vector<int> bare = bare_nodes(system(), inertia, core().changes); !bare.empty())
     frame.drop_nodes(bare);
@@ -50,9 +78,12 @@ void FrameDynamics::State::apply_changes() {
   clear_dropped();
   forget_motion();
   kinks.find_anew(system());
-  if (options.keep_energy) ledger.terms().freed += stored - stored_energy();
-  find_substep_load();
+  substep_load = scaled_force(system(), changed.load(system()));
   patterns.forget();
+  const bool loads_alone = counters.changes == changes;
+  if (!loads_alone) begin_motion_anew();
+  if (options.keep_energy) ledger.terms().freed += stored - stored_energy();
+  return !loads_alone;
 }
 
 void FrameDynamics::State::renumber() {
@@ -117,10 +148,6 @@ void FrameDynamics::State::clear_dropped() {
     for (int e = first[n]; e < first[n + 1]; ++e) before.u(e) = before.v(e) = before.a(e) = 0;
   }
   for (Eigen::VectorXd* values : {&before.u, &before.v, &before.a}) system().drop_idle_motion(*values);
-}
-
-void FrameDynamics::State::find_substep_load() {
-  substep_load = scaled_force(system(), changed.load(system(), inertia, method.h, before.v));
 }
 
 }  // namespace topple::solver

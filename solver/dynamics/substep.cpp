@@ -1,4 +1,5 @@
 // One substep: from the motion before it to the one after it, and the accounts of energy.
+#include <optional>
 #include <utility>
 
 #include "dynamics/dynamic_state.h"
@@ -11,9 +12,11 @@ void FrameDynamics::State::advance_substep(const JointLaw* law) {
 }
 
 void FrameDynamics::State::break_all(const JointLaw* law) {
+  std::optional<MotionState> start;
   while (law != nullptr && break_joints(*law)) {
     ++counters.retaken;
-    apply_changes();
+    if (!start) start = before;
+    (void)apply_changes(&*start);
     patterns.find(system());
     advance_substep(law);
   }
@@ -97,7 +100,6 @@ void FrameDynamics::State::accept() {
     ledger.book_end(now, before, method, options.damping);  // both were exchanged
   }
   time += method.h;
-  changed.forget_brought();
   patterns.accept();
   recent_loads.accept(method.h);
 }

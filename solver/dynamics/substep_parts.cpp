@@ -32,8 +32,6 @@ void FrameDynamics::State::advance_as_needed(const JointLaw& law) {
   ++counters.divided;
   put_off();
   divide_substep(needed);
-  // What changed before the substep acts over its first part.
-  if (!substep_load.isZero(0)) find_substep_load();
   for (int left = parts; left > 0; --left) {
     if (left < parts) begin_part(left);
     advance_substep(&law);

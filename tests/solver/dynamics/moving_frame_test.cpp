@@ -255,7 +255,7 @@ TEST_CASE("Impulses on a free frame give it their momentum, and a beam that leav
   CHECK(std::abs(e.kinetic + e.elastic + e.damped + e.freed - e.struck) < 1e-10 * work);
 }
 
-TEST_CASE("Mass that comes to a beam brings its momentum: over the next substep, or at once with an impulse") {
+TEST_CASE("Mass that comes to a beam brings its momentum, with the next substep or with an impulse before it") {
   const Vec6 brought = components(300, -200, 500, 20, 30, -40);
   for (const bool at_once : {false, true}) {
     FrameDynamics frame = free_portal();
@@ -297,9 +297,9 @@ TEST_CASE("A correction that substep after substep goes over gives way to a new 
   DynamicOptions options;
   options.substep = 1.0 / 480;
   FrameDynamics frame(model, {}, options);
-  frame.set_node_load(node, components(1000, 0, -500, 0, 0, 0));
   frame.set_end_stiffness(beam, 0, softer);
   frame.advance();
+  frame.set_node_load(node, components(1000, 0, -500, 0, 0, 0));
   REQUIRE(frame.reanalysis_counters().low_rank == 1);
   CHECK(frame.reanalysis_counters().refactorisations == 0);
   for (int n = 0; n < 3000; ++n) frame.advance();
@@ -307,8 +307,9 @@ TEST_CASE("A correction that substep after substep goes over gives way to a new 
   // Softer from the start: no correction, and the same motion.
   model.beams[static_cast<std::size_t>(beam)].end_stiffness[0] = softer;
   FrameDynamics other(model, {}, options);
+  other.advance();
   other.set_node_load(node, components(1000, 0, -500, 0, 0, 0));
-  for (int n = 0; n < 3001; ++n) other.advance();
+  for (int n = 0; n < 3000; ++n) other.advance();
   CHECK(other.reanalysis_counters().refactorisations == 0);
   const Vec6 moved = other.displacements()[static_cast<std::size_t>(node)];
   CHECK((frame.displacements()[static_cast<std::size_t>(node)] - moved).norm() < 1e-8 * moved.norm());

@@ -171,7 +171,8 @@ class FrameDynamics {
   FrameDynamics& operator=(FrameDynamics&&) noexcept;
 
   // Changes take effect with the next substep, from its beginning, as in Reanalysis. When a beam's end breaks, its mass
-  // goes to the end still held: the momentum is kept, as an impulse in that substep, and the loss counted as freed.
+  // goes to the end still held: the momentum is kept, as an impulse at once, and the loss counted as freed. Wherever
+  // more than loads changes, accelerations are found anew from what acts on what stands then.
   /// Stiffness between a beam's end (0 or 1) and its node, local components; zero breaks the joint.
   void set_end_stiffness(int beam, int end, const Vec6& stiffness);
   /// The beam is no longer there: stiffness, mass and loads go.
@@ -256,7 +257,7 @@ class FrameDynamics {
   /// work is counted as freed, with its sign turned.
   void add_impulses(std::span<const Impulse> impulses);
   /// Momentum (N s, and N m s about the origin, global) that mass brings along which the beam bears from now on. It
-  /// acts evenly over the next substep, or at once with strike(), on the ends that hold the beam then, as the momentum
+  /// acts at once as the next substep begins, or with strike(), on the ends that hold the beam then, as the momentum
   /// does that a broken end leaves, and is counted as that is. A beam that leaves before takes it along.
   void add_momentum(int beam, const Vec6& momentum);
 
