@@ -47,8 +47,18 @@ void FrameDynamics::State::begin_motion_anew() {
   const double a0 = options.damping.mass, a1 = options.damping.stiffness, s = inertia.factor;
   force -= (products.row(4) - s * products.row(0) + a1 * (products.row(5) - s * products.row(1)) + a0 * products.row(1))
                .transpose();
-  before.a = jumps->velocities(system(), Jumps::on_mass(system(), force));
+  before.a = acceleration_under(std::move(force));
   forget_motion();
+}
+
+/// By (M + K/s)^-1, s of the shortest parts of a substep: by M^-1 alone what they do not resolve would be thrown far
+/// beyond its place. For what they do resolve it is M^-1 to the second order, and a factor is there.
+Eigen::VectorXd FrameDynamics::State::acceleration_under(Eigen::VectorXd force) {
+  const int most = options.most_parts;
+  const double s = GeneralizedAlpha(whole.h / most, options.spectral_radius, options.damping.stiffness).s;
+  force *= s;
+  most == 1 ? core().solve_as_it_stands(force) : shorter->solve(system(), most, s, force);
+  return force;
 }
 
 void FrameDynamics::State::forget_motion() {
