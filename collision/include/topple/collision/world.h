@@ -324,6 +324,8 @@ class World {
   /// id first. Those that were there in the last step are flagged persistent. Nothing moves. An engine that cannot
   /// step in parts takes obstacles as standing still.
   [[nodiscard]] virtual std::vector<Contact> sweep(double dt, const SweepOptions& options = {}) = 0;
+  /// The same of all speeds, past obstacles that stand still.
+  [[nodiscard]] std::vector<Contact> sweep(double dt, Sweep what) { return sweep(dt, SweepOptions{.what = what}); }
   /// Integrates awake bodies by dt > 0 (one internal step, semi-implicit Euler; rotation keeps angular momentum).
   virtual void step(double dt) = 0;
   /// The same in `parts` equal parts, after each of which the structure moves on: obstacles that move touch bodies with
