@@ -48,7 +48,7 @@ std::unique_ptr<btConvexShape> make_box(const ConvexPart& part, const std::strin
     refuse(owner, part, "a box needs half extents above zero");
   }
   auto box = std::make_unique<btBoxShape>(to_bullet(part.half_extents));
-  box->setMargin(std::min(kSkin, 0.1 * part.half_extents.minCoeff()));
+  box->setMargin(std::min(kSkinOfBox, 0.1 * part.half_extents.minCoeff()));
   polyhedra.give_features(*box, numbers_of(part));
   return box;
 }

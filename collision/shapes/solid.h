@@ -15,9 +15,12 @@ class btCollisionObject;
 
 namespace topple::collision {
 
-/// Hulls and boxes touch through a skin of this thickness (m). Thick enough that resting contacts stay out of the
-/// costly search for penetration depth, thin enough that nobody sees the gap of a hull: its skin lies outside.
+/// Hulls touch through a skin of this thickness (m). Thick enough that resting contacts stay out of the costly search
+/// for penetration depth, thin enough that nobody sees the gap: it lies outside.
 inline constexpr double kSkin = 0.002;
+/// A box's lies inside, and rounds its corners off by up to three quarters of this (m): what a sweep does not see
+/// coming for that, contacts stop, with a force that is as large as a part of a step is short.
+inline constexpr double kSkinOfBox = 1e-5;
 
 /// One convex part in the frame of its solid's Bullet transform.
 struct SolidPart {
