@@ -61,7 +61,7 @@ class DebrisWorld final : public World {
 
   void advance(double dt, int parts, MovingStructure* structure);
   void begin_step(double dt);
-  [[nodiscard]] int parts_of_step(double dt) const;
+  [[nodiscard]] int parts_for_spins(double dt) const;
   void read_velocities_by(const Vec3& more);
   void find_contacts(double dt);
   void gather_islands();

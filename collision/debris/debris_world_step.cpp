@@ -57,8 +57,8 @@ void DebrisWorld::step(double dt, int parts, MovingStructure& structure) {
   advance(dt, parts, &structure);
 }
 
-/// In `parts` after each of which the structure goes on, and each of those in as many as fast spins need. Without a
-/// structure obstacles stand still.
+/// In `parts` after each of which the structure goes on, and each of those in as many as the spins that it begins with
+/// need, whatever the length of the step. Without a structure obstacles stand still.
 void DebrisWorld::advance(double dt, int parts, MovingStructure* structure) {
   const double part_time = dt / parts;
   if (structure) {
@@ -71,20 +71,21 @@ void DebrisWorld::advance(double dt, int parts, MovingStructure* structure) {
     moving_.stand_still(scene_.obstacle(scene_.moving_obstacles.back()));
   if (!structure && scene_.awake_count == 0) return;
   find_contacts(part_time);
-  const int finer = (parts_of_step(dt) + parts - 1) / parts;
   gather_islands();
   parts_ = 1;
-  if (finer == 1 && rest_.fall_asleep(islands_, dt)) gather_islands();
-  parts_ = parts * finer;
-  read_velocities_by(scene_.gravity * ((1 - 1.0 / parts_) * dt / 2));
+  if (parts_for_spins(part_time) == 1 && rest_.fall_asleep(islands_, dt)) gather_islands();
   for (int part = 0; part < parts; ++part) {
     const std::size_t told = report_.all().size();
     if (part > 0) update_moving(part_time, *structure);
+    int finer = 1;
     for (int i = 0; i < finer && (scene_.awake_count > 0 || !scene_.moving_obstacles.empty()); ++i) {
-      if (part + i > 0) {
-        find_contacts(dt / parts_);
-        gather_islands();
+      if (part + i > 0) find_contacts(i == 0 ? part_time : dt / parts_);
+      if (i == 0) {
+        finer = parts_for_spins(part_time);
+        parts_ = parts * finer;
+        read_velocities_by(scene_.gravity * ((1 - 1.0 / parts_) * dt / 2));
       }
+      if (part + i > 0) gather_islands();
       if (scene_.awake_count > 0) move_on(dt / parts_);
     }
     if (structure) advance_structure(part_time, told, *structure);
@@ -126,9 +127,9 @@ void DebrisWorld::move_on(double dt) {
   rest_.watch(islands_, dt);
 }
 
-/// Contacts are planes at points that stay through a step. A body that spins leaves them by reach (1 - cos(w dt)): the
-/// step is taken in so many parts, each with contacts of its own, that this is small for all that touch.
-int DebrisWorld::parts_of_step(double dt) const {
+/// Contacts are planes at points that stay through `dt`. A body that spins leaves them by reach (1 - cos(w dt)): it is
+/// taken in so many parts, each with contacts of its own, that this is small for all that touch.
+int DebrisWorld::parts_for_spins(double dt) const {
   double most = 0;
   const auto look_at = [&](std::uint32_t collider) {
     const Solid& solid = *scene_.pairs.collider(collider).solid;

@@ -112,6 +112,21 @@ TEST_CASE("A heavy body that comes slowly presses no harder on what stands in sh
   }
 }
 
+TEST_CASE("A shot parts alike from what spins off it, however long the step in which that begins to spin") {
+  const auto shot = [](int rate) {
+    auto [building, scenario] = read_scenario(find_scenario("bridge_hit"));
+    scenario.step = 1.0 / rate;
+    Simulation simulation(std::move(building), std::move(scenario));
+    for (int begun = 1; begun < 3 * rate / 2; ++begun) simulation.step();  // to 1.5 s: the first begins after a step
+    for (const BodyView& body : simulation.bodies())
+      if (body.name == "projectile 1") return body.pose.position;
+    return Vec3(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+  };
+  // The post that it hits at 1.35 s leaves with 60 rad/s, and meets it again within the step. 9 mm apart where only
+  // what spins when a step begins divides its parts.
+  CHECK((shot(60) - shot(240)).norm() < 1e-3);
+}
+
 TEST_CASE("How fast a shot flies on from what it hit does not hang on the substeps") {
   const auto speed = [](int substeps) {
     auto [building, scenario] = read_scenario(find_scenario("house_hit"));
