@@ -92,6 +92,7 @@ struct FrameDynamics::State {
   /// The substep that was tried did not happen.
   void put_off();
   void divide_substep(int into);
+  [[nodiscard]] GeneralizedAlpha method_of_parts(int into) const;
   /// Of a divided substep, not the first; as many are left, this one included.
   void begin_part(int left);
   void require_undivided() const;
@@ -114,6 +115,8 @@ struct FrameDynamics::State {
   void foresee();
   /// x := (K + s M)^-1 x, of the substep under way.
   void solve_substep(Eigen::VectorXd& x);
+  /// The same of a substep that is one of so many parts, with s of their method.
+  void solve_of_parts(int into, double s, Eigen::VectorXd& x);
   void find_end();
   void accept();
   void account_energy();

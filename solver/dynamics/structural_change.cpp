@@ -55,9 +55,9 @@ void FrameDynamics::State::begin_motion_anew() {
 /// beyond its place. For what they do resolve it is M^-1 to the second order, and a factor is there.
 Eigen::VectorXd FrameDynamics::State::acceleration_under(Eigen::VectorXd force) {
   const int most = options.most_parts;
-  const double s = GeneralizedAlpha(whole.h / most, options.spectral_radius, options.damping.stiffness).s;
+  const double s = method_of_parts(most).s;
   force *= s;
-  most == 1 ? core().solve_as_it_stands(force) : shorter->solve(system(), most, s, force);
+  solve_of_parts(most, s, force);
   return force;
 }
 

@@ -40,8 +40,10 @@ void FrameDynamics::State::solve_elastic() {
   solve_substep(equation.w());
 }
 
-void FrameDynamics::State::solve_substep(Eigen::VectorXd& x) {
-  parts == 1 ? core().solve_as_it_stands(x) : shorter->solve(system(), parts, method.s, x);
+void FrameDynamics::State::solve_substep(Eigen::VectorXd& x) { solve_of_parts(parts, method.s, x); }
+
+void FrameDynamics::State::solve_of_parts(int into, double s, Eigen::VectorXd& x) {
+  into == 1 ? core().solve_as_it_stands(x) : shorter->solve(system(), into, s, x);
 }
 
 void FrameDynamics::State::foresee() {

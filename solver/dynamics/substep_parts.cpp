@@ -69,8 +69,12 @@ void FrameDynamics::State::put_off() {
 void FrameDynamics::State::divide_substep(int into) {
   if (into == parts) return;
   parts = into;
-  method = GeneralizedAlpha(whole.h / parts, options.spectral_radius, options.damping.stiffness);
+  method = method_of_parts(parts);
   kinks.find_anew(system());
+}
+
+GeneralizedAlpha FrameDynamics::State::method_of_parts(int into) const {
+  return {whole.h / into, options.spectral_radius, options.damping.stiffness};
 }
 
 void FrameDynamics::State::begin_part(int left) {
