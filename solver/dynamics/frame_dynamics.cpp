@@ -66,6 +66,7 @@ FrameDynamics::State::State(FrameModel model, MassModel masses, DynamicOptions g
   if (!(options.largest_error > 0)) throw std::invalid_argument("the largest error of a substep must be above 0");
   if (options.most_parts < 1) throw std::invalid_argument("a substep has one part or more");
   core().system->inertia = &inertia;
+  core().factor_when_asked = true;
 }
 
 void FrameDynamics::State::require_undivided() const {

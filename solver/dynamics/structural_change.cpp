@@ -33,7 +33,7 @@ void FrameDynamics::State::begin_changed() {
 /// either the method makes energy, by an amount that hangs on the substep.
 void FrameDynamics::State::begin_motion_anew() {
   const Eigen::VectorXd impulse = scaled_force(system(), changed.impulses(system(), inertia, before.v));
-  if (!impulse.isZero(0)) before.v += jumps->velocities(system(), Jumps::on_mass(system(), impulse));
+  if (!impulse.isZero(0)) before.v += at_once(Jumps::on_mass(system(), impulse));
   forget_motion();
   Eigen::VectorXd force = constant_load + substep_load;
   patterns.find(system());
@@ -47,13 +47,14 @@ void FrameDynamics::State::begin_motion_anew() {
   const double a0 = options.damping.mass, a1 = options.damping.stiffness, s = inertia.factor;
   force -= (products.row(4) - s * products.row(0) + a1 * (products.row(5) - s * products.row(1)) + a0 * products.row(1))
                .transpose();
-  before.a = acceleration_under(std::move(force));
+  before.a = at_once(std::move(force));
   forget_motion();
 }
 
-/// By (M + K/s)^-1, s of the shortest parts of a substep: by M^-1 alone what they do not resolve would be thrown far
-/// beyond its place. For what they do resolve it is M^-1 to the second order, and a factor is there.
-Eigen::VectorXd FrameDynamics::State::acceleration_under(Eigen::VectorXd force) {
+/// Accelerations under a force, or velocities by an impulse: by (M + K/s)^-1, s of the shortest parts of a substep. By
+/// M^-1 alone what they do not resolve would be thrown far beyond its place. For what they do resolve it is M^-1 to the
+/// second order, and a factor is there.
+Eigen::VectorXd FrameDynamics::State::at_once(Eigen::VectorXd force) {
   const int most = options.most_parts;
   const double s = method_of_parts(most).s;
   force *= s;

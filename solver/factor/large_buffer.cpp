@@ -12,7 +12,7 @@ constexpr std::size_t line = 64;
 /// Entries that may lie idle in a pool: 32 MiB.
 constexpr std::size_t most_spare = std::size_t{1} << 22;
 /// Kept are so many blocks at most, none below so many entries (8 MiB).
-constexpr std::size_t most_kept = 4, least_kept = std::size_t{1} << 20;
+constexpr std::size_t most_kept = 6, least_kept = std::size_t{1} << 20;
 
 /// What is kept while somebody asks for it (KeptMemory).
 struct KeptBlocks {
@@ -37,12 +37,17 @@ struct KeptBlocks {
     return found;
   }
 
-  /// False where it is to be freed.
-  bool keep(const Block& block) {
+  /// Returns what is to be freed: this one, or the smallest that was kept where it is larger and there are many.
+  double* keep(const Block& block) {
     const std::lock_guard lock(mutex);
-    if (users == 0 || block.size < least_kept || blocks.size() >= most_kept) return false;
+    if (users == 0 || block.size < least_kept) return block.memory;
     blocks.push_back(block);
-    return true;
+    if (blocks.size() <= most_kept) return nullptr;
+    const auto smallest = std::min_element(blocks.begin(), blocks.end(),
+                                           [](const Block& a, const Block& b) { return a.size < b.size; });
+    double* const memory = smallest->memory;
+    blocks.erase(smallest);
+    return memory;
   }
 };
 
@@ -68,7 +73,7 @@ KeptMemory::~KeptMemory() {
 }
 
 void LargeBuffer::Free::operator()(double* p) const {
-  if (!kept_blocks().keep({p, size})) free_memory(p);
+  if (double* const unwanted = kept_blocks().keep({p, size})) free_memory(unwanted);
 }
 
 LargeBuffer::LargeBuffer(std::size_t entries) : size_(entries) {

@@ -34,6 +34,7 @@ void Reanalysis::State::switch_factors() {
 }
 
 std::optional<Defect> Reanalysis::State::renew_factor() {
+  catch_up();
   if (!serving->corrected()) return std::nullopt;
   go_on_with_refresh();
   if (!serving->corrected() || !serving->worn()) return std::nullopt;

@@ -48,6 +48,8 @@ struct Reanalysis::State {
   mutable std::vector<Vec6> reactions;  ///< per support; empty: not asked for yet
   ReanalysisWork work;
   std::vector<int> touched_nodes;  ///< by the changes under way: once grown, an answer asks for no memory
+  bool factor_when_asked = false;  ///< the factor takes changes over when it is next asked, those since then together
+  bool factor_lags = false;        ///< it has some to take over
 
   State(FrameModel model, const AnalysisOptions& given);
   [[nodiscard]] bool pending() const { return !answered || !changes.none() || !load.known(); }
@@ -75,13 +77,16 @@ struct Reanalysis::State {
   // reanalysis_strategy.cpp
   /// Brings matrix, factor and correction up to date; a defect when the structure does not stand.
   [[nodiscard]] std::optional<Defect> update_structure(const std::vector<int>& touched);
+  [[nodiscard]] std::optional<Defect> update_factor(bool changed);
+  /// With factor_when_asked: the factor is that of the matrix as it stands. Throws Instability.
+  void catch_up();
   enum class Correction {
     made,
     not_made,  ///< a new factor is cheaper, or the correction cannot decide
     beyond     ///< the same, and what changed last is alone more than a correction takes
   };
   /// Answers by a low-rank update.
-  [[nodiscard]] Correction correct_factor(const std::vector<int>& touched, std::optional<Defect>& defect);
+  [[nodiscard]] Correction correct_factor(bool changed, std::optional<Defect>& defect);
   [[nodiscard]] std::optional<Defect> refactorise();
 
   // reanalysis_refresh.cpp
@@ -94,7 +99,10 @@ struct Reanalysis::State {
   /// be called between answers of a structure that does not change. A defect when it does not stand.
   [[nodiscard]] std::optional<Defect> renew_factor();
   /// x := K^-1 x (scaled equations) of the matrix as it stands, as ServingFactor::solve() has it.
-  void solve_as_it_stands(Eigen::VectorXd& x) { refresh.pay(serving->solve(x)); }
+  void solve_as_it_stands(Eigen::VectorXd& x) {
+    catch_up();
+    refresh.pay(serving->solve(x));
+  }
   /// F' K^-1 G of the matrix as it stands (scaled equations); G is zero wherever F is. Only what joins their rows in
   /// the factor is gone through.
   [[nodiscard]] Eigen::MatrixXd answers_between(const Eigen::MatrixXd& F, const Eigen::MatrixXd& G);

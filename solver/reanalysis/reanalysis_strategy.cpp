@@ -1,6 +1,7 @@
 // How a change is answered: by a low-rank update or by a new factor.
 #include <utility>
 
+#include "assembly/mechanism.h"
 #include "reanalysis/reanalysis_state.h"
 #include "reanalysis/update_costs.h"
 #include "reanalysis/work_count.h"
@@ -30,10 +31,19 @@ std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>
     structure_stands = true;
     return std::nullopt;
   }
+  if (factor_when_asked) {
+    structure_stands = factor_lags = true;
+    return std::nullopt;
+  }
+  return update_factor(!touched.empty());
+}
+
+std::optional<Defect> Reanalysis::State::update_factor(bool changed) {
+  std::optional<Defect> defect;
   go_on_with_refresh();
-  Correction correction = correct_factor(touched, defect);
+  Correction correction = correct_factor(changed, defect);
   // Beyond what a correction can do, a factor that is under way comes sooner than one begun now.
-  if (correction == Correction::not_made && switch_now()) correction = correct_factor(touched, defect);
+  if (correction == Correction::not_made && switch_now()) correction = correct_factor(changed, defect);
   if (correction == Correction::made) {
     structure_stands = !defect;
     if (structure_stands) begin_refresh_if_due();
@@ -44,8 +54,12 @@ std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>
   return defect;
 }
 
-Reanalysis::State::Correction Reanalysis::State::correct_factor(const std::vector<int>& touched,
-                                                                std::optional<Defect>& defect) {
+void Reanalysis::State::catch_up() {
+  if (!std::exchange(factor_lags, false)) return;
+  require_none(update_factor(true));
+}
+
+Reanalysis::State::Correction Reanalysis::State::correct_factor(bool changed, std::optional<Defect>& defect) {
   solution.forget_elimination();
   const ServingFactor::Choice choice = serving->choose(refresh.rules());
   const Correction otherwise = choice.last_alone_too_much ? Correction::beyond : Correction::not_made;
@@ -58,7 +72,7 @@ Reanalysis::State::Correction Reanalysis::State::correct_factor(const std::vecto
   answer.nearly_unstable = verdict.nearly_unstable;
   if (!decided) return otherwise;
   defect = std::move(verdict.defect);
-  if (!touched.empty()) ++work.counters.low_rank;
+  if (changed) ++work.counters.low_rank;
   return Correction::made;
 }
 

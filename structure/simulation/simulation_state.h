@@ -5,6 +5,7 @@
 
 #include "simulation/debris/moving_parts.h"
 #include "simulation/stage_parts.h"
+#include "topple/solver/kept_memory.h"
 #include "topple/structure/simulation.h"
 
 namespace topple::structure {
@@ -37,6 +38,8 @@ struct Simulation::State : StageParts {
   std::unique_ptr<MovingParts> moving_parts;
   /// s
   [[nodiscard]] double first_substep() const { return scene.scenario.step / scene.frame->substeps(); }
+
+  solver::KeptMemory kept_memory;  ///< factors follow each other while a frame breaks
 
   // Of the step that runs.
   bool in_substeps = false;  ///< what stands moves, or is struck
