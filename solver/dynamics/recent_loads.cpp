@@ -7,24 +7,6 @@
 #include "elements/beam.h"
 
 namespace topple::solver {
-namespace {
-
-/// Of a component, over `length` s that end `ago` s before the newest stretch does, which lasts for `under_way` s.
-template <class History>
-double mean_of(const History& history, Eigen::Index component, double under_way, double ago, double length) {
-  double sum = 0, left = length;
-  for (const auto& one : history) {
-    const double duration = &one == &history.front() ? under_way : one.duration;
-    const double passed = std::min(ago, duration), taken = std::min(left, duration - passed);
-    ago -= passed;
-    left -= taken;
-    sum += taken * one.fixed_end(component);
-  }
-  return sum / (length - left);
-}
-
-}  // namespace
-
 Vec6 times_to_feel(const Beam& beam) {
   constexpr double bending = 22.3733;  // the square of the first root of cos x cosh x = 1
   Vec6 times = Vec6::Zero();
@@ -53,11 +35,12 @@ void RecentLoads::change(int beam, const Held& held, const std::vector<BeamLoad>
     made.fixed_end = condensed.fixed_end_forces(made.pushes).force;
     return made;
   };
-  if (found == histories_.end()) {
-    const Stretch before = stretch(longest + h, from);
-    found = histories_.emplace(beam, History{before, before}).first;
-  }
-  found->second.front() = stretch(0, to);
+  if (found == histories_.end()) found = histories_.emplace(beam, History{stretch(longest + h, from)}).first;
+  History& history = found->second;
+  if (history.front().duration > 0)
+    history.insert(history.begin(), stretch(0, to));
+  else
+    history.front() = stretch(0, to);
 }
 
 void RecentLoads::hold_otherwise(int beam, const Held& held) {
@@ -74,11 +57,10 @@ void RecentLoads::hold_otherwise(int beam, const Held& held) {
 void RecentLoads::accept(double h) {
   for (auto entry = histories_.begin(); entry != histories_.end();) {
     History& history = entry->second;
-    history.insert(history.begin(), history.front());
-    history[1].duration = h;
+    history.front().duration += h;
     // No longer than it is looked back to from the start of this substep.
     double kept = times_[static_cast<std::size_t>(entry->first)].maxCoeff() + h;
-    for (auto one = std::next(history.begin()); one != history.end(); ++one) {
+    for (auto one = history.begin(); one != history.end(); ++one) {
       if (kept > one->duration) {
         kept -= one->duration;
         continue;
@@ -90,6 +72,19 @@ void RecentLoads::accept(double h) {
     const auto alike = [&](const Stretch& one) { return one.fixed_end == history.front().fixed_end; };
     entry = std::all_of(history.begin(), history.end(), alike) ? histories_.erase(entry) : std::next(entry);
   }
+}
+
+double RecentLoads::mean_of(const History& history, Eigen::Index component, double under_way, double ago,
+                            double length) {
+  double sum = 0, left = length;
+  for (const Stretch& one : history) {
+    const double duration = one.duration + (&one == &history.front() ? under_way : 0);
+    const double passed = std::min(ago, duration), taken = std::min(left, duration - passed);
+    ago -= passed;
+    left -= taken;
+    sum += taken * one.fixed_end(component);
+  }
+  return sum / (length - left);
 }
 
 Vec12 RecentLoads::felt(int beam, const Vec12& acting, double h, bool at_end, bool accepted) const {

@@ -46,7 +46,7 @@ class RecentLoads {
 
  private:
   struct Stretch {
-    double duration = 0;  ///< s; of the one under way 0
+    double duration = 0;  ///< s; of the one under way, until that began
     std::vector<BeamLoad> pushes;
     Vec12 fixed_end = Vec12::Zero();
     template <class Archive>
@@ -55,6 +55,9 @@ class RecentLoads {
     }
   };
   using History = std::vector<Stretch>;  ///< the newest first, which is the one under way
+  /// Of a component, over `length` s that end `ago` s before the newest stretch does, which goes on for `under_way` s.
+  [[nodiscard]] static double mean_of(const History& history, Eigen::Index component, double under_way, double ago,
+                                      double length);
 
   std::vector<Vec6> times_;
   std::map<int, History> histories_;

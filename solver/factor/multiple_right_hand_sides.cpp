@@ -104,44 +104,56 @@ TOPPLE_ELIMINATE(6)
 #undef TOPPLE_ELIMINATE
 constexpr Eliminate eliminate_of[six] = {eliminate_1, eliminate_2, eliminate_3, eliminate_4, eliminate_5, eliminate_6};
 
-/// c(k) += W(:, k) . y for N columns.
-template <int N>
-[[gnu::always_inline]] inline void multiply_columns(const double* W, std::ptrdiff_t stride, const double* y, int rows,
-                                                    double* c) {
+/// C(k, m) += W(:, k) . Y(:, m) for N columns of W and M of Y; each is summed as if it were alone.
+template <int N, int M>
+[[gnu::always_inline]] inline void multiply_columns(const double* W, std::ptrdiff_t stride, const double* Y,
+                                                    std::ptrdiff_t Y_stride, int rows, double* C,
+                                                    std::ptrdiff_t C_stride) {
   constexpr int lanes = EightLanes::count;
-  EightLanes::Vector sum[N];
+  EightLanes::Vector sum[N * M];
   TOPPLE_UNROLLED
-  for (int k = 0; k < N; ++k) sum[k] = EightLanes::Vector{};
+  for (int k = 0; k < N * M; ++k) sum[k] = EightLanes::Vector{};
   int i = 0;
   for (; i + lanes <= rows; i += lanes) {
-    const EightLanes::Vector own = lanes_at<EightLanes>(y + i);
+    EightLanes::Vector own[M];
     TOPPLE_UNROLLED
-    for (int k = 0; k < N; ++k) sum[k] += lanes_at<EightLanes>(W + k * stride + i) * own;
+    for (int m = 0; m < M; ++m) own[m] = lanes_at<EightLanes>(Y + m * Y_stride + i);
+    TOPPLE_UNROLLED
+    for (int k = 0; k < N; ++k) {
+      const EightLanes::Vector w = lanes_at<EightLanes>(W + k * stride + i);
+      TOPPLE_UNROLLED
+      for (int m = 0; m < M; ++m) sum[k * M + m] += w * own[m];
+    }
   }
   TOPPLE_UNROLLED
   for (int k = 0; k < N; ++k) {
-    double part[lanes], last = 0;
-    lanes_at<EightLanes>(part) = sum[k];
-    for (int j = i; j < rows; ++j) last += W[k * stride + j] * y[j];
-    for (int lane = 0; lane < lanes; ++lane) last += part[lane];
-    c[k] += last;
+    TOPPLE_UNROLLED
+    for (int m = 0; m < M; ++m) {
+      double part[lanes], last = 0;
+      lanes_at<EightLanes>(part) = sum[k * M + m];
+      for (int j = i; j < rows; ++j) last += W[k * stride + j] * Y[m * Y_stride + j];
+      for (int lane = 0; lane < lanes; ++lane) last += part[lane];
+      C[m * C_stride + k] += last;
+    }
   }
 }
 
-using Multiply = void (*)(const double*, std::ptrdiff_t, const double*, int, double*);
-#define TOPPLE_MULTIPLY_COLUMNS(N)                                                                  \
-  TOPPLE_VECTOR_VERSIONS                                                                            \
-  void multiply_##N(const double* W, std::ptrdiff_t stride, const double* y, int rows, double* c) { \
-    multiply_columns<N>(W, stride, y, rows, c);                                                     \
+using Multiply = void (*)(const double*, std::ptrdiff_t, const double*, std::ptrdiff_t, int, double*, std::ptrdiff_t);
+#define TOPPLE_MULTIPLY_COLUMNS(N, M)                                                                          \
+  TOPPLE_VECTOR_VERSIONS                                                                                       \
+  void multiply_##N##_##M(const double* W, std::ptrdiff_t stride, const double* Y, std::ptrdiff_t Y_stride,    \
+                          int rows, double* C, std::ptrdiff_t C_stride) {                                      \
+    multiply_columns<N, M>(W, stride, Y, Y_stride, rows, C, C_stride);                                         \
   }
-TOPPLE_MULTIPLY_COLUMNS(1)
-TOPPLE_MULTIPLY_COLUMNS(2)
-TOPPLE_MULTIPLY_COLUMNS(3)
-TOPPLE_MULTIPLY_COLUMNS(4)
-TOPPLE_MULTIPLY_COLUMNS(5)
-TOPPLE_MULTIPLY_COLUMNS(6)
+TOPPLE_MULTIPLY_COLUMNS(1, 1)
+TOPPLE_MULTIPLY_COLUMNS(2, 1)
+TOPPLE_MULTIPLY_COLUMNS(3, 1)
+TOPPLE_MULTIPLY_COLUMNS(4, 1)
+TOPPLE_MULTIPLY_COLUMNS(5, 1)
+TOPPLE_MULTIPLY_COLUMNS(6, 1)
+TOPPLE_MULTIPLY_COLUMNS(6, 3)
 #undef TOPPLE_MULTIPLY_COLUMNS
-constexpr Multiply multiply_of[six] = {multiply_1, multiply_2, multiply_3, multiply_4, multiply_5, multiply_6};
+constexpr Multiply multiply_of[six] = {multiply_1_1, multiply_2_1, multiply_3_1, multiply_4_1, multiply_5_1, multiply_6_1};
 
 TOPPLE_VECTOR_VERSIONS
 void add_combination(const double* W, std::ptrdiff_t stride, int columns, const double* c, double* y, int rows) {
@@ -155,8 +167,23 @@ void add_combination(const double* W, std::ptrdiff_t stride, int columns, const 
 }  // namespace
 
 void add_products(const double* W, int stride, int rows, int columns, const double* y, double* c) {
-  for (int k = 0; k < columns; k += six)
-    multiply_of[std::min(six, columns - k) - 1](W + static_cast<std::ptrdiff_t>(k) * stride, stride, y, rows, c + k);
+  add_products(W, stride, rows, columns, y, rows, 1, c, columns);
+}
+
+void add_products(const double* W, int stride, int rows, int columns, const double* Y, int Y_stride, int count,
+                  double* C, int C_stride) {
+  constexpr int together = 3;
+  for (int k = 0; k < columns; k += six) {
+    const double* own = W + static_cast<std::ptrdiff_t>(k) * stride;
+    const int width = std::min(six, columns - k);
+    for (int m = 0; m < count;) {
+      const int taken = width == six && m + together <= count ? together : 1;
+      const Multiply multiply = taken == together ? multiply_6_3 : multiply_of[width - 1];
+      multiply(own, stride, Y + static_cast<std::ptrdiff_t>(m) * Y_stride, Y_stride, rows,
+               C + static_cast<std::ptrdiff_t>(m) * C_stride + k, C_stride);
+      m += taken;
+    }
+  }
 }
 
 void subtract_combination(const double* W, int stride, int rows, int columns, const double* c, double* y) {

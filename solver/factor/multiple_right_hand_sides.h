@@ -12,6 +12,9 @@ void eliminate_right_hand_sides(const double* L, int columns, int rows, double* 
 
 /// W: `columns` columns of `rows` entries, one every `stride`. c(k) += W(:, k) . y, always in the same order.
 void add_products(const double* W, int stride, int rows, int columns, const double* y, double* c);
+/// C(k, m) += W(:, k) . Y(:, m) for `count` columns of Y, each by itself as above, so that the bits are the same.
+void add_products(const double* W, int stride, int rows, int columns, const double* Y, int Y_stride, int count,
+                  double* C, int C_stride);
 /// y -= W c.
 void subtract_combination(const double* W, int stride, int rows, int columns, const double* c, double* y);
 

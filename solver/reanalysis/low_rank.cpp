@@ -93,12 +93,11 @@ void LowRankCorrection::compute_gram(Place& place, const Place& other) {
   const int shared = other.path.rows() - other.path.offset[i];
   const auto rows = static_cast<int>(other.W.cols());
   count_work(product_cost(static_cast<double>(shared) * rows * static_cast<double>(place.W.cols())));
-  for (Eigen::Index c = 0; c < place.W.cols(); ++c) {
-    double* product = gram_.col(place.first + c).data() + other.first;
-    std::fill(product, product + rows, 0.0);
-    add_products(other.W.data() + other.W.rows() - shared, static_cast<int>(other.W.rows()), shared, rows,
-                 place.W.col(c).data() + place.W.rows() - shared, product);
-  }
+  gram_.block(other.first, place.first, rows, place.W.cols()).setZero();
+  add_products(other.W.data() + other.W.rows() - shared, static_cast<int>(other.W.rows()), shared, rows,
+               place.W.data() + place.W.rows() - shared, static_cast<int>(place.W.rows()),
+               static_cast<int>(place.W.cols()), gram_.col(place.first).data() + other.first,
+               static_cast<int>(gram_.rows()));
   if (&other == &place) return;
   gram_.block(place.first, other.first, place.W.cols(), rows) =
       gram_.block(other.first, place.first, rows, place.W.cols()).transpose();
