@@ -79,6 +79,7 @@ struct FrameDynamics::State {
   /// With all that came since the last one.
   void begin_changed();
   void begin_motion_anew();
+  [[nodiscard]] Eigen::VectorXd velocities_that_share(const Eigen::VectorXd& impulses);
   [[nodiscard]] Eigen::VectorXd at_once(Eigen::VectorXd force);
   /// The motion at the start of the next substep is another one, or what it is read with.
   void forget_motion();

@@ -44,7 +44,6 @@ Eigen::VectorXd FrameDynamics::State::Jumps::on_mass(const FrameSystem& system, 
   return impulses;
 }
 
-/// Stiffness damps what an impulse sets going while it lasts: by so much of s that it has to be counted.
 bool FrameDynamics::State::Jumps::damps(const FrameSystem& system) const {
   return softened_ * system.inertia->factor > least_share;
 }

@@ -20,6 +20,8 @@ class FrameDynamics::State::Jumps {
   /// The frame's matrices are others.
   void forget_frame();
 
+  /// Stiffness damps what an impulse sets going while it lasts: by so much of s that it has to be counted.
+  [[nodiscard]] bool damps(const FrameSystem& system) const;
   /// In the scaled equations: what freedoms without mass are given comes to nothing.
   [[nodiscard]] static Eigen::VectorXd on_mass(const FrameSystem& system, Eigen::VectorXd impulses);
   /// (M + d a1 K)^-1 times impulses on mass.
@@ -32,7 +34,6 @@ class FrameDynamics::State::Jumps {
   void load_from(std::istream& from, const FrameSystem& system);
 
  private:
-  [[nodiscard]] bool damps(const FrameSystem& system) const;
   [[nodiscard]] Eigen::VectorXd velocities_by_mass(const FrameSystem& system, Eigen::VectorXd left) const;
   [[nodiscard]] FollowingFactor& factor(const FrameSystem& system);
 

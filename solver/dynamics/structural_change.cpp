@@ -33,7 +33,7 @@ void FrameDynamics::State::begin_changed() {
 /// either the method makes energy, by an amount that hangs on the substep.
 void FrameDynamics::State::begin_motion_anew() {
   const Eigen::VectorXd impulse = scaled_force(system(), changed.impulses(system(), inertia, before.v));
-  if (!impulse.isZero(0)) before.v += at_once(Jumps::on_mass(system(), impulse));
+  if (!impulse.isZero(0)) before.v += velocities_that_share(Jumps::on_mass(system(), impulse));
   forget_motion();
   Eigen::VectorXd force = constant_load + substep_load;
   patterns.find(system());
@@ -49,6 +49,12 @@ void FrameDynamics::State::begin_motion_anew() {
                .transpose();
   before.a = at_once(std::move(force));
   forget_motion();
+}
+
+/// Without damping by M^-1, so that momentum is kept to rounding. With it M + d a1 K, by which other impulses go, would
+/// hand more of it to supports than the shortest parts of a substep do, and need a factor of its own.
+Eigen::VectorXd FrameDynamics::State::velocities_that_share(const Eigen::VectorXd& impulses) {
+  return jumps->damps(system()) ? at_once(impulses) : jumps->velocities(system(), impulses);
 }
 
 /// Accelerations under a force, or velocities by an impulse: by (M + K/s)^-1, s of the shortest parts of a substep. By

@@ -86,6 +86,7 @@ void Reanalysis::forget_references() {
 }
 
 Eigen::MatrixXd Reanalysis::State::answers_between(const Eigen::MatrixXd& F, const Eigen::MatrixXd& G) {
+  catch_up();
   Eigen::MatrixXd X = G;
   BaseFactor* const base = serving->base();
   if (base == nullptr || serving->is_soft()) {

@@ -153,6 +153,23 @@ TEST_CASE("A joint that comes to its capacity divides the substep, however near 
   CHECK(frame.counters().divided < 20);
 }
 
+TEST_CASE("The factor of whole substeps takes over at once what broke in the parts of one") {
+  FrameDynamics frame = swaying(whole, 8, 1e9);
+  const Moments law(1.5e4);
+  strike(frame, 8000);
+  const auto taken_over = [&] {
+    return frame.reanalysis_counters().low_rank + frame.reanalysis_counters().refactorisations;
+  };
+  std::uint64_t most_retaken = 0;
+  for (int n = 0; n < 20; ++n) {
+    const std::uint64_t before = taken_over(), retaken = frame.counters().retaken;
+    frame.advance(&law);
+    CHECK(taken_over() - before <= 1);
+    most_retaken = std::max(most_retaken, frame.counters().retaken - retaken);
+  }
+  CHECK(most_retaken > 1);
+}
+
 TEST_CASE("What leaves in a part of a substep leaves with what its loads gave it until the substep's end") {
   // A beam hangs on another by its upper end; the lower one bears a load, and its joint gives way.
   FrameModel model;

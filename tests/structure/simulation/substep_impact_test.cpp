@@ -147,8 +147,9 @@ TEST_CASE("How fast a shot flies on from what it hit does not hang on the subste
   CHECK(std::abs(usual) < 30);  // it has hit: it came with 60 m/s
   for (const int substeps : {16, 32}) {
     INFO(substeps << " substeps of a sixtieth of a second");
-    // Rounding; 0.06 and 0.10 off with impulses that act as long as a substep.
-    CHECK(speed(substeps) == Approx(usual).epsilon(1e-9));
+    // Joints that break share momentum over the shortest parts of a substep: 2.6e-5 and 3.8e-5 off. 0.06 and 0.10 with
+    // impulses that act as long as a substep.
+    CHECK(speed(substeps) == Approx(usual).epsilon(1e-4));
   }
 }
 
