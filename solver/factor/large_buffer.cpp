@@ -43,8 +43,8 @@ struct KeptBlocks {
     if (users == 0 || block.size < least_kept) return block.memory;
     blocks.push_back(block);
     if (blocks.size() <= most_kept) return nullptr;
-    const auto smallest = std::min_element(blocks.begin(), blocks.end(),
-                                           [](const Block& a, const Block& b) { return a.size < b.size; });
+    const auto smallest =
+        std::min_element(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.size < b.size; });
     double* const memory = smallest->memory;
     blocks.erase(smallest);
     return memory;

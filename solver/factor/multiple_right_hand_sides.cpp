@@ -139,11 +139,11 @@ template <int N, int M>
 }
 
 using Multiply = void (*)(const double*, std::ptrdiff_t, const double*, std::ptrdiff_t, int, double*, std::ptrdiff_t);
-#define TOPPLE_MULTIPLY_COLUMNS(N, M)                                                                          \
-  TOPPLE_VECTOR_VERSIONS                                                                                       \
-  void multiply_##N##_##M(const double* W, std::ptrdiff_t stride, const double* Y, std::ptrdiff_t Y_stride,    \
-                          int rows, double* C, std::ptrdiff_t C_stride) {                                      \
-    multiply_columns<N, M>(W, stride, Y, Y_stride, rows, C, C_stride);                                         \
+#define TOPPLE_MULTIPLY_COLUMNS(N, M)                                                                                 \
+  TOPPLE_VECTOR_VERSIONS                                                                                              \
+  void multiply_##N##_##M(const double* W, std::ptrdiff_t stride, const double* Y, std::ptrdiff_t Y_stride, int rows, \
+                          double* C, std::ptrdiff_t C_stride) {                                                       \
+    multiply_columns<N, M>(W, stride, Y, Y_stride, rows, C, C_stride);                                                \
   }
 TOPPLE_MULTIPLY_COLUMNS(1, 1)
 TOPPLE_MULTIPLY_COLUMNS(2, 1)
@@ -153,7 +153,8 @@ TOPPLE_MULTIPLY_COLUMNS(5, 1)
 TOPPLE_MULTIPLY_COLUMNS(6, 1)
 TOPPLE_MULTIPLY_COLUMNS(6, 3)
 #undef TOPPLE_MULTIPLY_COLUMNS
-constexpr Multiply multiply_of[six] = {multiply_1_1, multiply_2_1, multiply_3_1, multiply_4_1, multiply_5_1, multiply_6_1};
+constexpr Multiply multiply_of[six] = {multiply_1_1, multiply_2_1, multiply_3_1,
+                                       multiply_4_1, multiply_5_1, multiply_6_1};
 
 TOPPLE_VECTOR_VERSIONS
 void add_combination(const double* W, std::ptrdiff_t stride, int columns, const double* c, double* y, int rows) {

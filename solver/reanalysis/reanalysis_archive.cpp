@@ -12,7 +12,8 @@ namespace topple::solver {
 
 void Reanalysis::State::save_to(std::ostream& to) const {
   StateWriter archive(to);
-  // Options, and when the factor follows, are the constructor's; strain forces are found again with the same bits; touched nodes are scratch.
+  // Options, and when the factor follows, are the constructor's; strain forces are found again with the same bits;
+  // touched nodes are scratch.
   const auto& [own_system, given_options, own_changes, own_load, own_strain_forces, own_serving, own_refresh,
                own_solution, own_selective, is_assembled, stands_now, has_answer, defect, last_answer, last_effort,
                is_watched, whole, is_whole, at_supports, counted, touched, when_asked, lags] = *this;
@@ -22,8 +23,7 @@ void Reanalysis::State::save_to(std::ostream& to) const {
   own_refresh.save(archive, *own_system);
   archive(own_solution, own_selective != nullptr);
   if (own_selective) archive(*own_selective);
-  archive(is_assembled, stands_now, has_answer, defect, last_answer, last_effort, is_watched, is_whole,
-          lags);
+  archive(is_assembled, stands_now, has_answer, defect, last_answer, last_effort, is_watched, is_whole, lags);
   if (is_whole) archive(whole);
   archive(at_supports, counted);
 }
