@@ -90,7 +90,8 @@ double update_contacts(NearPair& pair, const PairMotion& motion, double kept, do
   pair.turn = turn;
   pair.shift = shift;
   pair.margin = motion.margin;
-  pair.clear = pair.manifold.count > 0 ? -1 : std::max(motion.margin, pair.axis.gap);
+  // What the axis proves. Faces may have no point within the margin, and the two be nearer than it all the same.
+  pair.clear = pair.manifold.count > 0 ? -1 : pair.axis.gap;
   return motion.first->polyhedron && motion.second->polyhedron ? std::max(0.0, pair.clear) : 0;
 }
 

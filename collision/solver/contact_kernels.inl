@@ -339,6 +339,17 @@ TOPPLE_INLINE bool concerned(const ContactPack& pack, const unsigned char* moved
   return one != 0;
 }
 
+/// Where the impulses have changed by more than what counts as settled, both bodies. True: anywhere.
+TOPPLE_INLINE bool note_moved(const Open& one, const Wide& over, unsigned char* moves) {
+  if (!any(over)) return false;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (!(over[lane] > 0)) continue;
+    if (const int first = one.pack.first_body[lane]; first != 0) moves[first] = 1;
+    if (const int second = one.pack.second_body[lane]; second != 0) moves[second] = 1;
+  }
+  return true;
+}
+
 struct Relax {
   Wide rate, settled;
   const unsigned char* moved;
@@ -350,15 +361,9 @@ struct Relax {
   TOPPLE_INLINE void point(Open& one, int i) const { stop(one, i, rate, settled); }
   /// Friction last, so that it is bounded by the normal impulses that are told.
   TOPPLE_INLINE void end(Open& one) {
-    const ContactPack& pack = one.pack;
     const Wide rubbed = rub(one.pack, one.points, one.now);
-    const Wide over = larger(one.over, rubbed - settled * smaller(pack.inverse[0], pack.inverse[2]));
-    for (int lane = 0; lane < kLanes; ++lane) {
-      if (!(over[lane] > 0)) continue;
-      unsettled = true;
-      if (const int first = pack.first_body[lane]; first != 0) moves[first] = 1;
-      if (const int second = pack.second_body[lane]; second != 0) moves[second] = 1;
-    }
+    const Wide over = larger(one.over, rubbed - settled * smaller(one.pack.inverse[0], one.pack.inverse[2]));
+    unsettled = note_moved(one, over, moves) || unsettled;
   }
 };
 
@@ -386,10 +391,14 @@ TOPPLE_INLINE void add_up(ContactPack& pack, PackPoint* own) {
   pack.twist_total += pack.twist;
 }
 
-struct Separate : WholePack {
+struct Separate {
   bool first;
-  Wide rate, fastest;
+  Wide rate, fastest, settled;
+  const unsigned char* moved;
+  unsigned char* moves;
+  bool unsettled = false;
 
+  TOPPLE_INLINE bool takes(const ContactPack& pack) const { return concerned(pack, moved); }
   TOPPLE_INLINE void begin(ContactPack& pack, PackPoint* own) const {
     if (first) add_up(pack, own);
   }
@@ -405,9 +414,13 @@ struct Separate : WholePack {
     const Wide wanted = point.parting - point.mass * (scale * speed + bias) - given_back * point.parting;
     const Wide impulse = larger(wanted, none), change = impulse - point.parting;
     point.parting = impulse;
+    one.over = larger(one.over, magnitude(change) - settled * point.mass);
     push(point, change, one.along, one.now);
   }
-  TOPPLE_INLINE void end(Open& one) const { one.pack.carried += one.along.pushed; }
+  TOPPLE_INLINE void end(Open& one) {
+    one.pack.carried += one.along.pushed;
+    unsettled = note_moved(one, one.over, moves) || unsettled;
+  }
 };
 
 bool separate(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
@@ -416,8 +429,11 @@ bool separate(ContactPack* packs, PackPoint* points, std::size_t begin, std::siz
   work.first = step.first;
   work.rate = all(1 / step.length);
   work.fastest = all(-step.pushed_apart);
+  work.settled = all(step.again->settled);
+  work.moved = step.again->moved;
+  work.moves = step.again->moves;
   each_pack(packs, points, begin, end, velocity, work);
-  return false;
+  return work.unsettled;
 }
 
 struct Restitute : WholePack {

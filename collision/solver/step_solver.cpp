@@ -210,6 +210,25 @@ void StepSolver::sub_step(int number) {
   move(step);
 }
 
+/// Velocities that undo overlaps, in `moving_`. What lies between two much heavier ones takes about as many passes as
+/// it is lighter: as long as a contact changes by much, passes go on over those of the bodies that it moved.
+void StepSolver::push_apart(SubStep step) {
+  Again again;
+  again.settled = settings_.settled;
+  step.again = &again;
+  for (int pass = 0; pass < settings_.most_passes; ++pass) {
+    const bool may_be_last = pass + 1 >= settings_.moving_passes;
+    step.first = pass == 0;
+    moves_.assign(bodies_.size(), 0);
+    again.moves = moves_.data();
+    const bool unsettled = each_pack(contact_kernels().separate, step, moving_);
+    if (!may_be_last) continue;
+    if (!unsettled) break;
+    moved_.swap(moves_);
+    again.moved = moved_.data();
+  }
+}
+
 /// Bodies move by their velocities, and by what pushes overlaps apart: that is no speed and no force, or what is jammed
 /// between two parts would press them by the stiffness of springs that nothing has.
 void StepSolver::move(SubStep step) {
@@ -217,10 +236,7 @@ void StepSolver::move(SubStep step) {
   const double frequency = std::min(settings_.joint_frequency, 0.25 / h_);
   for (const HingeRows* hinge : hinges_)
     HingeRows(*hinge).solve(frequency, settings_.joint_damping, h_, moving_.data(), ignored_.data());
-  for (int pass = 0; pass < settings_.moving_passes; ++pass) {
-    step.first = pass == 0;
-    each_pack(contact_kernels().separate, step, moving_);
-  }
+  push_apart(step);
   each_body([&](std::size_t i) {
     for (int k = 0; k < 3; ++k) {
       displacement_[i].linear[k] += h_ * moving_[i].linear[k];

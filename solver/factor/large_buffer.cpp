@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t line = 64;
 /// Entries that may lie idle in a pool: 32 MiB.
 constexpr std::size_t most_spare = std::size_t{1} << 22;
-/// Kept are so many blocks at most, none below so many entries (8 MiB).
-constexpr std::size_t most_kept = 6, least_kept = std::size_t{1} << 20;
+/// Kept are so many blocks at most, none below so many entries (8 MiB); in sum so many times the largest.
+constexpr std::size_t most_kept = 6, least_kept = std::size_t{1} << 20, most_idle = 3;
 
 /// What is kept while somebody asks for it (KeptMemory).
 struct KeptBlocks {
@@ -41,6 +41,12 @@ struct KeptBlocks {
   double* keep(const Block& block) {
     const std::lock_guard lock(mutex);
     if (users == 0 || block.size < least_kept) return block.memory;
+    std::size_t sum = block.size, largest = block.size;
+    for (const Block& one : blocks) {
+      sum += one.size;
+      largest = std::max(largest, one.size);
+    }
+    if (sum > most_idle * largest) return block.memory;
     blocks.push_back(block);
     if (blocks.size() <= most_kept) return nullptr;
     const auto smallest =

@@ -43,7 +43,7 @@ void read_energy(const FrameDynamics& frame, Record& record) {
 void read_counters(const FrameDynamics& frame, Record& record) {
   const DynamicCounters& d = frame.counters();
   const ReanalysisCounters& c = frame.reanalysis_counters();
-  for (const std::uint64_t count : {d.substeps, d.retaken, d.breaks, d.yielding, d.unsettled, c.low_rank,
+  for (const std::uint64_t count : {d.substeps, d.retaken, d.breaks, d.yielding, d.unsettled, d.divided, c.low_rank,
                                     c.refactorisations, c.orderings, c.background_factors})
     record.add(static_cast<double>(count));
 }
@@ -84,7 +84,9 @@ void read_frame(const FrameDynamics& frame, Record& record) {
 /// Random things to do with a frame that moves.
 class Changes {
  public:
-  Changes(FrameModel model, const JointLaw& law, unsigned seed) : model_(std::move(model)), law_(law), random_(seed) {}
+  /// `divided`: substeps may be, and no loads go with time.
+  Changes(FrameModel model, const JointLaw& law, bool divided, unsigned seed)
+      : model_(std::move(model)), law_(law), divided_(divided), random_(seed) {}
 
   Step next() {
     switch (pick(25)) {
@@ -191,6 +193,7 @@ class Changes {
     });
   }
   Step add_pattern() {
+    if (divided_) return next();
     LoadSet loads;
     loads.nodes.push_back({node(), unit(pick(3), 1e3)});
     loads.beams.push_back(point_load(beam(), 1, unit(pick(3), 1e3)));
@@ -211,12 +214,13 @@ class Changes {
         [some = impulses(), now = pick(2) == 0](FrameDynamics& f) { now ? f.strike(some) : f.add_impulses(some); });
   }
   Step answer_impulses() {
-    return [some = impulses(), others = impulses(), kind = pick(3)](FrameDynamics& f, Record& record) {
+    return [some = impulses(), others = impulses(), kind = pick(4)](FrameDynamics& f, Record& record) {
       const std::vector<std::vector<Impulse>> both{some, others};
       const int nodes[] = {some.front().node};
       if (kind == 0) record.add(f.velocities_of(some));
       if (kind == 1) record.add(f.mobility(both));
       if (kind == 2) record.add(f.local_modes(nodes, both).squared);
+      if (kind == 3) record.add(f.foresee());
     };
   }
   Step look() {
@@ -244,6 +248,7 @@ class Changes {
 
   FrameModel model_;
   const JointLaw& law_;
+  bool divided_;
   std::mt19937 random_;
   int patterns_ = 0;
 };
@@ -271,11 +276,16 @@ History history(unsigned seed) {
   result.options.second_order = seed % 4 == 1;
   result.options.keep_energy = seed % 7 != 0;
   if (seed % 3 != 2) result.options.damping = {0.5, 1e-3};
+  const bool divided = seed % 6 == 5;
+  if (divided) {
+    result.options.most_parts = 4;
+    result.options.largest_error = 0.02;
+  }
   if (seed % 4 == 3) result.options.analysis.factorisation = Factorisation::simplicial;
   std::vector<PlasticHinge> hinges;
   for (int post = 0; post < 4; ++post) hinges.push_back({post, 0, 4 + post % 2, 3e3, 0.01});
   result.law = std::make_unique<MomentLaw>(3e4, hinges);
-  Changes changes(result.model, *result.law, seed + 1000);
+  Changes changes(result.model, *result.law, divided, seed + 1000);
   constexpr int steps = 70;
   for (int i = 0; i < steps; ++i) result.steps.push_back(changes.next());
   result.steps.push_back([](FrameDynamics& frame, Record& record) {
@@ -344,12 +354,14 @@ TEST_CASE("A frame in motion that is loaded at any moment goes on as the one tha
     steps += expected.size();
     seen.breaks += plain->counters().breaks;
     seen.yielding += plain->counters().yielding;
+    seen.divided += plain->counters().divided;
     corrections += plain->reanalysis_counters().low_rank;
     factors += plain->reanalysis_counters().orderings + plain->reanalysis_counters().refactorisations;
   }
   CHECK(steps > 2000);
   CHECK(seen.breaks > 50);
   CHECK(seen.yielding > 50);
+  CHECK(seen.divided > 50);
   CHECK(corrections > 200);
   CHECK(factors > 100);
 }

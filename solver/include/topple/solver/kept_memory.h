@@ -3,7 +3,8 @@
 
 namespace topple::solver {
 
-/// While one of these lives, the largest blocks of memory that factors let go of (six at most) wait for the next one.
+/// While one of these lives, the largest blocks of memory that factors let go of wait for the next one (six at most, in
+/// sum three times the largest).
 /// The system clears every page that it gives out, which for a large factor takes about as long as the arithmetic. They
 /// may be made and destroyed on any thread; the last to go frees what waits.
 class KeptMemory {
