@@ -1,7 +1,6 @@
 // How a change is answered: by a low-rank update or by a new factor.
 #include <utility>
 
-#include "assembly/mechanism.h"
 #include "reanalysis/reanalysis_state.h"
 #include "reanalysis/update_costs.h"
 #include "reanalysis/work_count.h"
