@@ -157,16 +157,20 @@ void StepSolver::stop_closing(SubStep step) {
 
 /// Normal impulses and friction together. What is squeezed between two that slide gets nearly opposite pushes from
 /// both: passes are repeated as in `stop_closing`, or what one has too much sets it flying.
-void StepSolver::relax(SubStep step) {
-  const ContactKernels& kernels = contact_kernels();
+void StepSolver::relax(SubStep step) { repeat(contact_kernels().relax, step, velocity_, 1); }
+
+/// At least `fewest` passes; then, as long as one changes a contact by much, over those of the bodies that it moved.
+void StepSolver::repeat(ContactKernels::Pass pass, SubStep step, std::vector<Motion6>& velocity, int fewest) {
   Again again;
   again.settled = settings_.settled;
   step.again = &again;
-  bool unsettled = true;
-  for (int pass = 0; pass < settings_.most_passes && unsettled; ++pass) {
+  for (int done = 0; done < settings_.most_passes;) {
+    step.first = done == 0;
     moves_.assign(bodies_.size(), 0);
     again.moves = moves_.data();
-    unsettled = each_pack(kernels.relax, step);
+    const bool unsettled = each_pack(pass, step, velocity);
+    if (++done < fewest) continue;
+    if (!unsettled) break;
     moved_.swap(moves_);
     again.moved = moved_.data();
   }
@@ -210,25 +214,6 @@ void StepSolver::sub_step(int number) {
   move(step);
 }
 
-/// Velocities that undo overlaps, in `moving_`. What lies between two much heavier ones takes about as many passes as
-/// it is lighter: as long as a contact changes by much, passes go on over those of the bodies that it moved.
-void StepSolver::push_apart(SubStep step) {
-  Again again;
-  again.settled = settings_.settled;
-  step.again = &again;
-  for (int pass = 0; pass < settings_.most_passes; ++pass) {
-    const bool may_be_last = pass + 1 >= settings_.moving_passes;
-    step.first = pass == 0;
-    moves_.assign(bodies_.size(), 0);
-    again.moves = moves_.data();
-    const bool unsettled = each_pack(contact_kernels().separate, step, moving_);
-    if (!may_be_last) continue;
-    if (!unsettled) break;
-    moved_.swap(moves_);
-    again.moved = moved_.data();
-  }
-}
-
 /// Bodies move by their velocities, and by what pushes overlaps apart: that is no speed and no force, or what is jammed
 /// between two parts would press them by the stiffness of springs that nothing has.
 void StepSolver::move(SubStep step) {
@@ -236,7 +221,8 @@ void StepSolver::move(SubStep step) {
   const double frequency = std::min(settings_.joint_frequency, 0.25 / h_);
   for (const HingeRows* hinge : hinges_)
     HingeRows(*hinge).solve(frequency, settings_.joint_damping, h_, moving_.data(), ignored_.data());
-  push_apart(step);
+  // What lies between two much heavier ones takes about as many passes as it is lighter.
+  repeat(contact_kernels().separate, step, moving_, settings_.moving_passes);
   each_body([&](std::size_t i) {
     for (int k = 0; k < 3; ++k) {
       displacement_[i].linear[k] += h_ * moving_[i].linear[k];

@@ -81,7 +81,7 @@ class StepSolver {
   void stop_closing(SubStep step);
   void relax(SubStep step);
   void move(SubStep step);
-  void push_apart(SubStep step);
+  void repeat(ContactKernels::Pass pass, SubStep step, std::vector<Motion6>& velocity, int fewest);
   void add_to(Equilibrium& equilibrium, const SolverContact& contact) const;
   void store_rest(const RestContact& found, SolverContact& contact, double dt) const;
   /// Only what touches may bear.
