@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "dynamics/dynamic_state.h"
+#include "dynamics/following_factor.h"
 
 namespace topple::solver {
 

@@ -32,7 +32,12 @@ void serialize(Archive& archive, Detached::Motion& motion) {
 template <class Archive>
 void serialize(Archive& archive, Detached& part) {
   auto& [members, panels, nodes, mechanism, hinges, cut, motion] = part;
-  archive(members, panels, nodes, mechanism, hinges, cut, motion);
+  bool moved = motion.has_value();
+  archive(members, panels, nodes, mechanism, hinges, cut, moved);
+  // By hand: cereal makes what it loads in place, of nothing, which clang refuses for a struct within the class.
+  if (moved && !motion) motion = Detached::Motion();
+  if (!moved) motion.reset();
+  if (moved) archive(*motion);
 }
 
 template <class Archive>
