@@ -6,11 +6,30 @@
 #include <set>
 #include <utility>
 
+#include "bullet/bullet_types.h"
+
 namespace topple::collision {
 
 namespace {
 /// A ball this near to its plumb line (m) may come to rest.
 constexpr double plumb = 0.02;
+
+/// True when no point of the boxes around its parts is farther than `far` from where it was then.
+bool stayed(const DebrisBody& one, double far) {
+  const Vec3 gone = one.at.position - one.position_then;
+  if (gone.norm() + one.reach * one.turn.angularDistance(one.turn_then) <= far) return true;
+  const Mat3 turned = one.turn.toRotationMatrix() - one.turn_then.toRotationMatrix();
+  return std::all_of(one.parts.begin(), one.parts.end(), [&](const SolidPart& part) {
+    btVector3 low, high;
+    part.shape->getAabb(btTransform::getIdentity(), low, high);
+    for (int corner = 0; corner < 8; ++corner) {
+      const btVector3 at(corner & 1 ? low.x() : high.x(), corner & 2 ? low.y() : high.y(),
+                         corner & 4 ? low.z() : high.z());
+      if ((gone + turned * from_bullet(part.local * at)).squaredNorm() > far * far) return false;
+    }
+    return true;
+  });
+}
 }  // namespace
 
 /// What is read at mid-step is at rest there with half a step of gravity less than none.
@@ -176,22 +195,27 @@ Island DebrisRest::awake_on(const Island& whole) const {
   return outside;
 }
 
-/// How long each body has stayed where it is. What rocks to and fro by less than that is slow as well; where something
-/// that moves carries some of an island, only what stays as near as points touch.
+/// How long each body has stayed where it is. What rocks to and fro by less than that is slow as well, and what creeps by
+/// less in each `slow_for`; where something that moves carries some of an island, only what stays as near as points
+/// touch.
 void DebrisRest::watch(std::span<const Island> islands, double dt) {
   for (const Island& island : islands) {
     const double far = island.carried ? scene_.settings.touching : scene_.settings.slow * scene_.settings.slow_for;
     for (DebrisBody* one : island.bodies) {
       if (one->asleep) continue;
       const bool held = !island.pairs.empty() || !island.hinges.empty() || !island.cables.empty();
-      const double turned = one->reach * one->turn.angularDistance(one->turn_then);
-      if (!held || (one->at.position - one->position_then).norm() + turned > far || swings(*one)) {
+      const bool slow = held && stayed(*one, far) && !swings(*one);
+      if (!slow) {
         one->slow_for = 0;
         one->rest_wait = scene_.settings.rest_again;
+      }
+      const auto windows = [&] { return std::floor(one->slow_for / scene_.settings.slow_for + 1e-9); };
+      const double before = windows();
+      one->slow_for += dt;
+      if (!slow || windows() != before) {
         one->position_then = one->at.position;
         one->turn_then = one->turn;
       }
-      one->slow_for += dt;
       one->retry_rest = std::max(0.0, one->retry_rest - dt);
     }
   }
