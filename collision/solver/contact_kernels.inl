@@ -300,7 +300,8 @@ bool go_on(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
   return false;
 }
 
-/// The patch slides and twists as one: both together are bounded by what presses it.
+/// The patch slides and twists as one: both together are bounded by what presses it. What touches at a point slides as
+/// if it did not spin, and spins as if it did not slide.
 /// Returns by how much its impulses have changed.
 TOPPLE_INLINE Wide rub(ContactPack& pack, const PackPoint* points, Both& now) {
   Wide pressed = all(0);
@@ -309,18 +310,21 @@ TOPPLE_INLINE Wide rub(ContactPack& pack, const PackPoint* points, Both& now) {
   const Lanes grips = pack.lever > none;
   const Wide lever = grips ? pack.lever : one;
   const Wide turning = dot(pack.twist_second, now.second.angular) - dot(pack.twist_first, now.first.angular);
-  const Wide held = grips ? pack.twist - pack.twist_mass * turning : none;
+  const Wide bound = pack.friction * pressed, most = pack.spins_at * bound;
+  const Lanes alone = pack.spins_at > none;
+  const Wide wanted = grips ? pack.twist - pack.twist_mass * turning : none;
+  const Wide held = alone ? larger(smaller(wanted, most), -most) : wanted;
   turn(pack, held - pack.twist, now);
   const Wide x = relative(pack, pack.along[0], pack.along_first[0], pack.along_second[0], now),
              y = relative(pack, pack.along[1], pack.along_first[1], pack.along_second[1], now);
   Wide a = pack.slide[0] - (pack.inverse[0] * x + pack.inverse[1] * y),
        b = pack.slide[1] - (pack.inverse[1] * x + pack.inverse[2] * y);
-  const Wide c = held / lever;
-  const Wide bound = pack.friction * pressed, size = root(a * a + b * b + c * c);
+  const Wide c = alone ? none : held / lever;
+  const Wide size = root(a * a + b * b + c * c);
   const Wide share = size > bound ? bound / (size > none ? size : one) : one;
   a *= share;
   b *= share;
-  const Wide twist = held * share;
+  const Wide twist = alone ? held : held * share;
   turn(pack, twist - held, now);
   const Wide change[2] = {a - pack.slide[0], b - pack.slide[1]};
   push(pack, pack.along[0], pack.along_first[0], pack.along_second[0], change[0], now);

@@ -55,6 +55,7 @@ struct alignas(32) ContactPack {
   Wide twist_mass;
   Wide friction;
   Wide lever;                        ///< m: a twist counts as so much force
+  Wide spins_at;                     ///< m: where it is bounded by itself, as that of a patch: by how much; else 0
   Wide slide[2], twist;              ///< impulses of this sub-step
   Wide slide_total[2], twist_total;  ///< over the step
   Wide carried,

@@ -11,6 +11,8 @@ struct SolverContact {
   int first = 0, second = 0;  ///< solver bodies; 0: what stands
   const Placement *first_at = nullptr, *second_at = nullptr;
   double friction = 0, restitution = 0;
+  bool held = false;  ///< one of the two sleeps since it came to rest on the other, which is awake
+  bool first_ball = false, second_ball = false;
   // Where it lies in the packs.
   int pack = -1, lane = 0;
   std::array<Vec3, Manifold::most> places;  ///< of its points when the step began, global

@@ -30,7 +30,7 @@ struct SolverSettings {
                                  ///< contacts fill each pack; passes go through it in another order then
   int most_domains = 16;         ///< of a heap: threads beyond these find nothing to do in it
 
-  double spins_by = 5;  ///< rad/s: where half of what angular momentum lacks would turn a body faster, both turn alike
+  double spins_by = 5;  ///< rad/s: where what angular momentum lacks would turn a body faster, both turn alike
 
   double leaves_plane = 0.02;  ///< m: a step is taken in parts where a body that touches leaves the planes of its
                                ///< contacts by more as it spins
@@ -41,7 +41,11 @@ struct SolverSettings {
   double kept = 0.005;   ///< m: contacts are sought anew when a point of the pair has moved farther against the other
   double matched = 0.1;  ///< m: a new point takes over the impulse of an old one nearer than this
   double fat = 0.04;     ///< m by which bounds are larger than parts: pairs are sought again beyond it
-  double restitution_from = 1;      ///< m/s: slower contacts do not bounce, so that piles come to rest
+  double restitution_from = 1;  ///< m/s: slower contacts do not bounce, so that piles come to rest
+  double patch = 0.0025;     ///< m: radius of what touches at a point. Rolling is braked at 1 mm: handbooks have levers
+                             ///< of rolling friction of 0.5 mm (steel on steel) to 1.5 (wood on wood). Without it what
+                             ///< hangs on edges swings for ever. Larger: it comes to rest sooner
+  double rolls_from = 0.02;  ///< rad/s: slower rolling is braked in proportion. A post's end goes 0.04 m/s at that
   double rolling_resistance = 0.1;  ///< of the normal force times the radius, a ball on soil: it would roll for ever
 
   // What stands and moves.
@@ -76,6 +80,13 @@ struct SolverSettings {
   double rest_again = 0.25;       ///< s: where no balance was found, it is sought again after this, then twice this ...
   double rest_again_at_most = 2;  ///< s: ... and so on to this, until something moves: what is sought in vain is dear
 };
+
+/// m. Of a patch that gives and does not spring back the front half alone bears where it rolls, with its middle there.
+[[nodiscard]] constexpr double rolling_lever(const SolverSettings& settings) {
+  return 4 / (3 * 3.14159265358979323846) * settings.patch;
+}
+/// m. Of friction on a patch that is pressed evenly and spins.
+[[nodiscard]] constexpr double spin_lever(const SolverSettings& settings) { return 2.0 / 3 * settings.patch; }
 
 #ifdef TOPPLE_VARIED_CONSTANTS  // benchmarks/constants: each halved and doubled
 inline SolverSettings solver_settings{};

@@ -23,12 +23,16 @@ void SolverContact::find_places() {
   }
 }
 
-void StepSolver::prepare(SolverContact& contact) {
+void StepSolver::prepare(SolverContact& contact, double dt) {
   ContactPack& pack = pack_of(contact);
   const int lane = contact.lane;
   const bool stands = contact.first == 0 || contact.second == 0;
   const double frequency = 1 / (settings_.stiffness * h_) * (stands ? settings_.standing_stiffer : 1);
-  const Softness soft = softness(frequency, settings_.damping * (stands ? settings_.standing_damping : 1), h_);
+  // What sleeps bears no more and no less of an overlap than it did when it fell asleep: pushed apart from it, the
+  // other would lose what it rests with, and the heap would move where one of its bodies wakes.
+  const Softness soft = contact.held
+                            ? Softness{0, 1, 0}
+                            : softness(frequency, settings_.damping * (stands ? settings_.standing_damping : 1), h_);
   pack.bias_rate[lane] = soft.bias_rate;
   pack.mass_scale[lane] = soft.mass_scale;
   pack.impulse_scale[lane] = soft.impulse_scale;
@@ -38,8 +42,29 @@ void StepSolver::prepare(SolverContact& contact) {
   pack.friction[lane] = contact.friction;
   set(pack.normal, lane, contact.pair->manifold.normal);
   contact.find_places();
+  if (!contact.first_ball && !contact.second_ball) shift_by_rolling(contact, dt);
   prepare_points(contact, pack, h_);
   prepare_friction(contact, pack, h_);
+}
+
+/// Where one body rolls on the other, the middle of the forces of a patch is ahead of its own, which brakes the roll.
+/// Slow rolling is braked in proportion, and a step takes no more than a share of it.
+void StepSolver::shift_by_rolling(SolverContact& contact, double dt) const {
+  const SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
+                   &second = bodies_[static_cast<std::size_t>(contact.second)];
+  const Manifold& manifold = contact.pair->manifold;
+  double pressed = 0;
+  for (int i = 0; i < manifold.count; ++i) pressed += manifold.points[static_cast<std::size_t>(i)].force;
+  const Vec3 ahead = (second.spin - first.spin).cross(manifold.normal);
+  const double rate = ahead.norm();
+  if (!(pressed > 0 && rate > 0)) return;
+  constexpr double taken = 0.25;  // of the roll, in a step
+  const double lever = rolling_lever(settings_);
+  const Vec3 axis = manifold.normal.cross(ahead) / rate;
+  const double gives = first.scaled_moment(axis).squaredNorm() + second.scaled_moment(axis).squaredNorm(),
+               braked = lever * pressed * dt * gives;
+  const Vec3 shift = lever / std::max({rate, settings_.rolls_from, braked / taken}) * ahead;
+  for (int i = 0; i < manifold.count; ++i) contact.places[static_cast<std::size_t>(i)] += shift;
 }
 
 void StepSolver::prepare_points(SolverContact& contact, ContactPack& pack, double h) {
@@ -65,7 +90,8 @@ void StepSolver::prepare_points(SolverContact& contact, ContactPack& pack, doubl
                b = second.scaled_moment((place - second.at.position).cross(n));
     set(row.first, lane, a);
     set(row.second, lane, b);
-    row.separation[lane] = point.separation;
+    const bool bears = contact.held && point.force > 0 && bears_at_rest(point);
+    row.separation[lane] = bears ? std::min(0.0, point.separation) : point.separation;
     row.mass[lane] = 1 / (masses + a.squaredNorm() + b.squaredNorm());
     row.impulse[lane] = point.impulse * h;
     row.approach[lane] = n.dot(across) + b.dot(second_spin) - a.dot(first_spin);
@@ -93,6 +119,7 @@ void StepSolver::find_friction_centre(SolverContact& contact) const {
     contact.lever +=
         weights[static_cast<std::size_t>(i)] / sum * (arm - manifold.normal.dot(arm) * manifold.normal).norm();
   }
+  contact.lever = std::max(contact.lever, spin_lever(settings_));
 }
 
 void StepSolver::prepare_friction(SolverContact& contact, ContactPack& pack, double h) {
@@ -129,6 +156,7 @@ void StepSolver::prepare_friction(SolverContact& contact, ContactPack& pack, dou
   pack.twist_mass[lane] = 1 / (twist_first.squaredNorm() + twist_second.squaredNorm());
   pack.twist[lane] = manifold.twist * h;
   pack.lever[lane] = contact.lever;
+  pack.spins_at[lane] = contact.lever > spin_lever(settings_) ? 0 : contact.lever;
 }
 
 }  // namespace topple::collision

@@ -270,7 +270,7 @@ void StepSolver::run(double dt, int substeps) {
   h_ = dt / substeps;
   scale_bodies(dt);
   packing_.pack(contacts_, bodies_.size(), ordered_, domains_of(contacts_.size()));
-  each_contact([&](SolverContact& contact) { prepare(contact); });
+  each_contact([&](SolverContact& contact) { prepare(contact, dt); });
   for (HingeRows* hinge : hinges_) hinge->begin_step(h_);
   for (int i = 0; i < substeps; ++i) sub_step(i);
   each_pack(contact_kernels().restitute, {h_, settings_.pushed_apart, settings_.restitution_from});
@@ -280,30 +280,45 @@ void StepSolver::run(double dt, int substeps) {
   keep_angular_momentum();
 }
 
-/// The arms of impulses are those of the step's beginning, and the two bodies have moved since: taken together their
-/// impulses P have turned them by too little or too much, by Q x (v2 - v1) with Q = sum of P times the time left, v the
-/// velocities in the end. It is given back by the same change of spin of both: that costs the least energy, and does
-/// not set a slender body spinning about its length beside a heavy one.
-/// About a fixed point a body that moves on takes v x Q from the impulse besides, and this: both take the same.
+/// How fast the place of a contact moves: with the corners of the one that has none of its faces there; with the middle
+/// of a ball.
+Vec3 StepSolver::place_moves(const SolverContact& contact) const {
+  const SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
+                   &second = bodies_[static_cast<std::size_t>(contact.second)];
+  if (contact.first_ball && contact.second_ball) return (first.velocity + second.velocity) / 2;
+  if (contact.first_ball || contact.second_ball) return contact.first_ball ? first.velocity : second.velocity;
+  const SolverBody& corners = contact.pair->manifold.normal_on_first ? second : first;
+  return corners.velocity + corners.spin.cross(contact.centre - corners.at.position);
+}
+
+/// The arms of impulses are those of the step's beginning, and the bodies have moved since. With Q the sum of impulses
+/// on the second times the time left, u the speed of the place where they act and v that of a body's centre, the second
+/// lacks Q x (v - u) of its angular momentum, and the first -Q x (v - u): together what the two have to keep. Without
+/// it what swings is turned back by where it was half a step ago, and swings farther each time (by w^2 dt/4 in a
+/// second). About a fixed point an impulse has moved on by u x Q. What that would set spinning too fast is turned with
+/// the other body alike: that costs the least energy, and sets no slender body spinning about its length beside a heavy
+/// one.
 void StepSolver::keep_angular_momentum() {
+  const auto turned = [](const SolverBody& of, const Vec3& moment) {
+    return Vec3(of.at.turn * of.inverse_root_moments.cwiseProduct(of.scaled_moment(moment)));
+  };
   for (SolverContact& contact : contacts_) {
     if (contact.late.isZero(0)) continue;
     SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
                &second = bodies_[static_cast<std::size_t>(contact.second)];
-    if (contact.first == 0 || contact.second == 0) {
-      contact.carried = (contact.first == 0 ? second : first).velocity.cross(contact.late);
-      continue;
-    }
-    const Vec3 moment = contact.late.cross(second.velocity - first.velocity);
-    const auto half = [&](const SolverBody& turned) {
-      return Vec3(turned.at.turn * turned.inverse_root_moments.cwiseProduct(turned.scaled_moment(moment / 2)));
-    };
-    Vec3 of_first = half(first), of_second = half(second);
-    contact.carried = second.velocity.cross(contact.late) + moment / 2;
+    const Vec3 moves = place_moves(contact);
+    Vec3 of_first = turned(first, (first.velocity - moves).cross(contact.late)),
+         of_second = turned(second, contact.late.cross(second.velocity - moves));
+    contact.carried = moves.cross(contact.late);
     if (std::max(of_first.norm(), of_second.norm()) > settings_.spins_by) {
+      const bool first_free = contact.first != 0 && !first.root_mobility,
+                 second_free = contact.second != 0 && !second.root_mobility;
+      contact.carried = (second_free ? second : first).velocity.cross(contact.late);
+      if (!first_free || !second_free) continue;
       const Mat3 inertia = second.inertia();
-      of_first = of_second = Mat3(first.inertia() + inertia).ldlt().solve(moment);
-      contact.carried = second.velocity.cross(contact.late) + inertia * of_second;
+      of_first = of_second =
+          Mat3(first.inertia() + inertia).ldlt().solve(contact.late.cross(second.velocity - first.velocity));
+      contact.carried += inertia * of_second;
     }
     first.spin += of_first;
     second.spin += of_second;

@@ -61,7 +61,8 @@ class StepSolver {
     double bias_rate, mass_scale, impulse_scale;
   };
   [[nodiscard]] static Softness softness(double frequency, double damping, double h);
-  void prepare(SolverContact& contact);
+  void prepare(SolverContact& contact, double dt);
+  void shift_by_rolling(SolverContact& contact, double dt) const;
   void prepare_points(SolverContact& contact, ContactPack& pack, double h);
   void prepare_friction(SolverContact& contact, ContactPack& pack, double h);
   void scale_bodies(double dt);
@@ -89,6 +90,7 @@ class StepSolver {
   void find_friction_centre(SolverContact& contact) const;
   void store_contact(SolverContact& contact, double dt);
   void unscale_bodies(double dt);
+  [[nodiscard]] Vec3 place_moves(const SolverContact& contact) const;
   void keep_angular_momentum();
 
   const SolverSettings& settings_;

@@ -1,7 +1,9 @@
 // What has lain asleep and is woken was at rest, and goes on from there.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
+#include "random_chunk.h"
 #include "topple/collision/small_steps.h"
 #include "world_builder.h"
 
@@ -66,4 +68,31 @@ TEST_CASE("a push on what sleeps gives it the momentum of the push and no other"
   const Vec3 half_step(0, 0, -kGravity * kStep / 2);
   CHECK((sleeper.world->state(sleeper.box).velocity + half_step - impulse / kMass).norm() < 1e-14);
   CHECK((sleeper.world->velocity_when_woken(sleeper.box) + half_step).norm() < 1e-15);
+}
+
+TEST_CASE("one body of a heap that sleeps can wake, and neither it nor the heap moves") {
+  std::mt19937 random(5);
+  const auto between = [&](double low, double high) { return low + (high - low) * (random() % 1000) / 1000.0; };
+  const auto world = world_with_ground();
+  std::vector<BodyId> heap;
+  for (int i = 0; i < 40; ++i)
+    heap.push_back(world->add_body(chunk(random, {between(-1, 1), between(-1, 1), 1 + 0.7 * i})));
+  const BodyId slab = world->add_body(box_body({1.5, 1.5, 0.15}, 6000, {0, 0, 32}));
+  heap.push_back(slab);
+  const auto sleeps = [&] { return world->awake_count() == 0; };
+  for (int i = 0; i < 2400 && !sleeps(); ++i) world->step(kStep);
+  REQUIRE(sleeps());
+  for (const BodyId woken : heap) {
+    std::vector<Vec3> begun;
+    for (const BodyId one : heap) begun.push_back(world->state(one).pose.position);
+    world->wake(woken);
+    for (int i = 0; i < 30; ++i) world->step(kStep);
+    double moved = 0;
+    for (std::size_t i = 0; i < heap.size(); ++i)
+      moved = std::max(moved, (world->state(heap[i]).pose.position - begun[i]).norm());
+    CAPTURE(woken.value);
+    CHECK(moved < 1e-3);  // as near as what rests touches
+    for (int i = 0; i < 300 && !sleeps(); ++i) world->step(kStep);
+    REQUIRE(sleeps());
+  }
 }
