@@ -195,8 +195,8 @@ Island DebrisRest::awake_on(const Island& whole) const {
   return outside;
 }
 
-/// How long each body has stayed where it is. What rocks to and fro by less than that is slow as well, and what creeps by
-/// less in each `slow_for`; where something that moves carries some of an island, only what stays as near as points
+/// How long each body has stayed where it is. What rocks to and fro by less than that is slow as well, and what creeps
+/// by less in each `slow_for`; where something that moves carries some of an island, only what stays as near as points
 /// touch.
 void DebrisRest::watch(std::span<const Island> islands, double dt) {
   for (const Island& island : islands) {
