@@ -20,14 +20,10 @@ bool stayed(const DebrisBody& one, double far) {
   if (gone.norm() + one.reach * one.turn.angularDistance(one.turn_then) <= far) return true;
   const Mat3 turned = one.turn.toRotationMatrix() - one.turn_then.toRotationMatrix();
   return std::all_of(one.parts.begin(), one.parts.end(), [&](const SolidPart& part) {
-    btVector3 low, high;
-    part.shape->getAabb(btTransform::getIdentity(), low, high);
-    for (int corner = 0; corner < 8; ++corner) {
-      const btVector3 at(corner & 1 ? low.x() : high.x(), corner & 2 ? low.y() : high.y(),
-                         corner & 4 ? low.z() : high.z());
-      if ((gone + turned * from_bullet(part.local * at)).squaredNorm() > far * far) return false;
-    }
-    return true;
+    const std::array<btVector3, 8> corners = corners_of_bounds(part);
+    return std::all_of(corners.begin(), corners.end(), [&](const btVector3& corner) {
+      return (gone + turned * from_bullet(corner)).squaredNorm() <= far * far;
+    });
   });
 }
 }  // namespace

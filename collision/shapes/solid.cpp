@@ -109,14 +109,8 @@ double thickness_of(const btConvexShape& shape) {
 }
 
 double reach_of(const SolidPart& part) {
-  btVector3 low, high;
-  part.shape->getAabb(btTransform::getIdentity(), low, high);
   double reach = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const btVector3 at(corner & 1 ? low.x() : high.x(), corner & 2 ? low.y() : high.y(),
-                       corner & 4 ? low.z() : high.z());
-    reach = std::max(reach, (part.local * at).length());
-  }
+  for (const btVector3& corner : corners_of_bounds(part)) reach = std::max(reach, corner.length());
   return reach;
 }
 
@@ -129,6 +123,16 @@ void make_compound(Solid& solid) {
 }
 
 }  // namespace
+
+std::array<btVector3, 8> corners_of_bounds(const SolidPart& part) {
+  btVector3 low, high;
+  part.shape->getAabb(btTransform::getIdentity(), low, high);
+  std::array<btVector3, 8> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    corners[i] =
+        part.local * btVector3(i & 1 ? low.x() : high.x(), i & 2 ? low.y() : high.y(), i & 4 ? low.z() : high.z());
+  return corners;
+}
 
 std::optional<btTransform> frame_of_only_box(const std::vector<ConvexPart>& description) {
   constexpr double rounding = 1e-9;  // of the size: how far a box may lie off and count as lying about the origin

@@ -2,6 +2,7 @@
 // What lies in the Bullet world: the convex parts of a body, an obstacle or the ground, as Bullet shapes.
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btConvexShape.h>
+#include <array>
 
 #include <memory>
 #include <optional>
@@ -68,6 +69,9 @@ struct Solid {
     archive(is, number, pieces, axes, is_turned, farthest);  // the compound is made again; `bullet` is another engine's
   }
 };
+
+/// Of the box around a part, in the solid's frame.
+[[nodiscard]] std::array<btVector3, 8> corners_of_bounds(const SolidPart& part);
 
 /// The frame of a description of one box that lies about the origin: in it the box is no compound, which pairs cost
 /// several times as much. None for any other.

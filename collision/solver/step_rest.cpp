@@ -49,13 +49,11 @@ void StepSolver::add_to(Equilibrium& equilibrium, const SolverContact& contact) 
     made.on_second.row(4 + i) = row(second, contact.anchor, along[static_cast<std::size_t>(1 + i)]);
     made.start[4 + i] = manifold.friction_force.dot(along[static_cast<std::size_t>(1 + i)]);
   }
-  if (contact.lever > 0) {
-    made.on_first.row(6).tail<3>() = contact.lever * first.scaled_moment(along[0]);
-    made.on_second.row(6).tail<3>() = contact.lever * second.scaled_moment(along[0]);
-    made.start[6] = manifold.twist_force / contact.lever;
-  }
+  made.on_first.row(6).tail<3>() = contact.lever * first.scaled_moment(along[0]);
+  made.on_second.row(6).tail<3>() = contact.lever * second.scaled_moment(along[0]);
+  made.start[6] = manifold.twist_force / contact.lever;
   const double masses = made.on_first.bottomRows<3>().squaredNorm() + made.on_second.bottomRows<3>().squaredNorm();
-  made.stiffness.tail<3>().setConstant((contact.lever > 0 ? 3 : 2) / masses);
+  made.stiffness.tail<3>().setConstant(3 / masses);
 }
 
 bool StepSolver::rest(double dt, const Vec3& gravity, std::span<const double> sizes, std::vector<char>& moves) {
