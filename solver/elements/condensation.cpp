@@ -141,6 +141,7 @@ Eigen::VectorXd Condensation::recover(const Eigen::VectorXd& loads, const Eigen:
 Eigen::MatrixXd Condensation::shapes() const {
   const Eigen::Index kept = size_ - inner_;
   if (!factor_) return Eigen::MatrixXd::Identity(kept, kept);
+  if (kept == 0) return Eigen::MatrixXd(size_, kept);  // Eigen takes the address of a first column
   Eigen::MatrixXd y = Eigen::MatrixXd::Zero(size_, kept), all(size_, kept);
   for (Eigen::Index k = 0; k < size_; ++k)
     if (is_kept(k)) y(k, row_at(k) - inner_) = 1;

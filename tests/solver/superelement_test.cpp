@@ -152,6 +152,20 @@ TEST_CASE("what a hole cuts off from everything that holds it leaves the superel
   CHECK_FALSE(element.has_shells(number(3, 2)));
 }
 
+TEST_CASE("a patch of which nothing is kept moves with nothing, and is deformed by what acts on it") {
+  Superelement::Patch own = patch();
+  own.kept.clear();
+  const Superelement element(own);
+  const std::vector<Vec6> loads = loads_on(wall(), {});
+  CHECK(element.stiffness().size() == 0);
+  CHECK(element.condense(loads).size() == 0);
+  const Eigen::MatrixXd shapes = element.shapes();
+  CHECK(shapes.rows() == 6 * static_cast<Eigen::Index>(own.nodes.size()));
+  CHECK(shapes.cols() == 0);
+  const std::vector<Vec6> moved = element.recover({}, loads);
+  CHECK(moved[static_cast<std::size_t>(number(columns, rows))].norm() > 0);
+}
+
 TEST_CASE("a copy of a superelement loses shells of its own, and is what a new one is then") {
   const Superelement whole(patch());
   Superelement copy(whole), fresh(patch());
