@@ -10,7 +10,7 @@ namespace {
 btDbvtVolume volume(const Box3& box) { return btDbvtVolume::FromMM(to_bullet(box.low), to_bullet(box.high)); }
 }  // namespace
 
-NearPairs::NearPairs() { colliders_.emplace_back(); }
+NearPairs::NearPairs() : partners_(1) { colliders_.emplace_back(); }
 NearPairs::~NearPairs() {
   moving_.clear();
   standing_.clear();
@@ -22,15 +22,38 @@ void NearPairs::insert_leaf(std::uint32_t index) {
   one.leaf->dataAsInt = static_cast<int>(index);
 }
 
+/// The ground has as many partners as lie on it, and is asked for none.
+void NearPairs::join(std::uint32_t a, std::uint32_t b) {
+  if (a != ground) partners_[a].push_back(b);
+  if (b != ground) partners_[b].push_back(a);
+}
+
+void NearPairs::part(std::uint32_t a, std::uint32_t b) {
+  const auto forget = [&](std::uint32_t of, std::uint32_t other) {
+    if (of == ground) return;
+    std::vector<std::uint32_t>& all = partners_[of];
+    *std::find(all.begin(), all.end(), other) = all.back();
+    all.pop_back();
+  };
+  forget(a, b);
+  forget(b, a);
+}
+
+/// By the shorter of the two lists: many may lie on one.
+bool NearPairs::is_known(std::uint32_t a, std::uint32_t b) const {
+  if (a == ground || (b != ground && partners_[b].size() < partners_[a].size())) std::swap(a, b);
+  return std::find(partners_[a].begin(), partners_[a].end(), b) != partners_[a].end();
+}
+
 /// All pairs, as they lie.
 void NearPairs::number_pairs() {
   free_pairs_.clear();
   order_.resize(pairs_.size());
-  known_.clear();
+  partners_.assign(colliders_.size(), {});
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     order_[i] = i;
     const std::uint32_t first = pairs_[i].first, second = pairs_[i].second;
-    known_.insert(key(first, second));
+    join(first, second);
     PairEnds& ends = ends_[i];
     ends.first = first;
     ends.second = second;
@@ -54,7 +77,7 @@ void NearPairs::copy(const NearPairs& of, const FindSolid& own) {
   ends_ = of.ends_;
   free_pairs_ = of.free_pairs_;
   order_ = of.order_;
-  known_ = of.known_;
+  partners_ = of.partners_;
   ground_height_ = of.ground_height_;
   stale_ = of.stale_;
 }
@@ -78,6 +101,7 @@ std::uint32_t NearPairs::add(Solid* solid, int part, std::uint64_t order, const 
   if (free_colliders_.empty()) {
     index = static_cast<std::uint32_t>(colliders_.size());
     colliders_.emplace_back();
+    partners_.emplace_back();
   } else {
     index = free_colliders_.back();
     free_colliders_.pop_back();
@@ -104,7 +128,7 @@ void NearPairs::remove(std::uint32_t index) {
       ++i;
       continue;
     }
-    known_.erase(key(one.first, one.second));
+    part(one.first, one.second);
     free_pairs_.push_back(order_[i]);
     order_.erase(order_.begin() + static_cast<std::ptrdiff_t>(i));
   }
@@ -130,7 +154,7 @@ void NearPairs::move(std::uint32_t index, const Box3& tight, double margin) {
 }
 
 void NearPairs::add_pair(std::uint32_t a, std::uint32_t b) {
-  if (!known_.insert(key(a, b)).second) return;
+  join(a, b);
   if (colliders_[a].order > colliders_[b].order) std::swap(a, b);
   std::uint32_t index;
   if (free_pairs_.empty()) {
@@ -149,15 +173,21 @@ void NearPairs::add_pair(std::uint32_t a, std::uint32_t b) {
   made_.push_back(index);
 }
 
-void NearPairs::seek_for(std::uint32_t index) {
+/// Two that have both moved find each other: the one that was added first tells of it.
+void NearPairs::seek(std::size_t moved) {
+  const std::uint32_t index = moved_[moved];
   const Collider& one = colliders_[index];
+  std::vector<std::uint32_t>& found = found_[moved];
+  found.clear();
   const auto meet = [&](std::uint32_t other) {
-    if (colliders_[other].solid != one.solid) add_pair(index, other);
+    const Collider& met = colliders_[other];
+    if (met.solid != one.solid && !(met.moved && other < index) && !is_known(index, other)) found.push_back(other);
   };
   each_in(one.fat, false, meet);
   if (one.stands) return;
   each_in(one.fat, true, meet);
-  if (colliders_[ground].solid && one.fat.low.z() <= ground_height_) add_pair(index, ground);
+  if (colliders_[ground].solid && one.fat.low.z() <= ground_height_ && !is_known(index, ground))
+    found.push_back(ground);
 }
 
 bool NearPairs::near(const PairEnds& pair) const {
@@ -167,22 +197,33 @@ bool NearPairs::near(const PairEnds& pair) const {
 }
 
 void NearPairs::find() {
+  drop_far();
+  for (std::size_t i = 0; i < moved_.size(); ++i) seek(i);
+  take_found();
+}
+
+void NearPairs::drop_far() {
+  if (found_.size() < moved_.size()) found_.resize(moved_.size());
   if (moved_.empty() && !stale_) return;
   stale_ = false;
   std::erase_if(order_, [&](std::uint32_t index) {
     const PairEnds& one = ends_[index];
     if ((!colliders_[one.first].moved && !colliders_[one.second].moved && one.second != ground) || near(one))
       return false;
-    known_.erase(key(one.first, one.second));
+    part(one.first, one.second);
     free_pairs_.push_back(index);
     return true;
   });
+}
+
+void NearPairs::take_found() {
   made_.clear();
-  for (const std::uint32_t index : moved_) {
-    seek_for(index);
-    colliders_[index].moved = false;
+  for (std::size_t i = 0; i < moved_.size(); ++i) {
+    for (const std::uint32_t other : found_[i]) add_pair(moved_[i], other);
+    colliders_[moved_[i]].moved = false;
   }
   moved_.clear();
+  if (made_.empty()) return;
   const auto before = [&](std::uint32_t a, std::uint32_t b) { return in_order(a, b); };
   std::sort(made_.begin(), made_.end(), before);
   const auto middle = static_cast<std::ptrdiff_t>(order_.size());

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <unordered_set>
 #include <vector>
 
 #include "contacts/manifold.h"
@@ -130,6 +129,12 @@ class NearPairs {
   }
   /// Brings the pairs up to date.
   void find();
+  // The same in three: those that are no longer near go; what is new is sought for each that moved, in any order and
+  // side by side; it is taken in.
+  void drop_far();
+  [[nodiscard]] std::size_t moved_count() const { return moved_.size(); }
+  void seek(std::size_t moved);
+  void take_found();
 
   /// Whether the one pair comes before the other, in order of their colliders.
   [[nodiscard]] bool in_order(std::uint32_t a, std::uint32_t b) const {
@@ -152,11 +157,10 @@ class NearPairs {
   void insert_leaf(std::uint32_t collider);
   void number_pairs();
   void add_pair(std::uint32_t a, std::uint32_t b);
-  void seek_for(std::uint32_t collider);
+  void join(std::uint32_t a, std::uint32_t b);
+  void part(std::uint32_t a, std::uint32_t b);
+  [[nodiscard]] bool is_known(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] bool near(const PairEnds& pair) const;
-  static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
-    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
-  }
 
   btDbvt moving_, standing_;
   std::vector<Collider> colliders_;
@@ -164,16 +168,17 @@ class NearPairs {
   std::vector<NearPair> pairs_;
   std::vector<PairEnds> ends_;  ///< of each pair
   std::vector<std::uint32_t> free_pairs_, order_, made_;
-  std::unordered_set<std::uint64_t> known_;
+  std::vector<std::vector<std::uint32_t>> partners_;  ///< of each collider: those that it is a pair with
+  std::vector<std::vector<std::uint32_t>> found_;     ///< for each that moved: its new partners
   double ground_height_ = 0;
   bool stale_ = false;  ///< a collider has gone
 };
 
 template <class Archive>
 void NearPairs::save(Archive& archive) const {
-  // Trees are built of the colliders; what is known is what is in order; `made` is room.
-  const auto& [moving, standing, colliders, free_colliders, moved, pairs, ends, free_pairs, order, made, known,
-               ground_height, stale] = *this;
+  // Trees are built of the colliders; partners are told by the pairs; `made` and `found` are room.
+  const auto& [moving, standing, colliders, free_colliders, moved, pairs, ends, free_pairs, order, made, partners,
+               found, ground_height, stale] = *this;
   archive(std::uint64_t{colliders.size()}, std::uint64_t{order.size()}, free_colliders, moved, ground_height, stale);
   for (const Collider& one : colliders) {
     archive(one, one.solid != nullptr);

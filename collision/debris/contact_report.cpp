@@ -156,9 +156,12 @@ void ContactReport::account_work(std::span<Island* const> islands, double dt) {
     for (DebrisCable* cable : island->cables)
       cable->pull.work_lost += work(scene_.body(cable->body), cable->row.impulse, Vec3::Zero());
   }
-  const auto share = [&](const DebrisBody& on, double size) {
-    if (!(on.pushed > 0)) return 0.0;
-    return size / on.pushed * (on.energy_before - (energy(on, scene_.gravity, dt) - on.swung) - on.accounted);
+  for (const Island* island : islands)
+    for (DebrisBody* one : island->bodies)
+      if (one->pushed > 0)
+        one->missing = one->energy_before - (energy(*one, scene_.gravity, dt) - one->swung) - one->accounted;
+  const auto share = [](const DebrisBody& on, double size) {
+    return on.pushed > 0 ? size / on.pushed * on.missing : 0.0;
   };
   for (const SolverContact& solved : solved_.solver().contacts())
     for (const bool second : {false, true})
@@ -176,6 +179,8 @@ void ContactReport::account_work(std::span<Island* const> islands, double dt) {
 }
 
 void ContactReport::merge_parts() {
+  const auto not_before = [](const Contact& a, const Contact& b) { return !before_by_parts(a, b); };
+  if (std::adjacent_find(contacts_.begin(), contacts_.end(), not_before) == contacts_.end()) return;
   std::vector<std::uint32_t> order(contacts_.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(),

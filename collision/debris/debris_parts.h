@@ -33,7 +33,7 @@ struct DebrisBodyData {
   int island = 0;
   // Of the step: what it began with, for the account of energy.
   Vec3 velocity_before = Vec3::Zero(), spin_before = Vec3::Zero();
-  double energy_before = 0, pushed = 0, accounted = 0;
+  double energy_before = 0, pushed = 0, accounted = 0, missing = 0;
   Vec3 acceleration = Vec3::Zero();  ///< of the last step, m/s2: what lies does not fall
   double swung = 0;  ///< J by which its free rotation missed its energy: comes back, and is no contact's
   std::vector<std::uint32_t> colliders;  ///< by part
@@ -44,8 +44,8 @@ template <class Archive>
 void archive_members(Archive& archive, DebrisBodyData& of) {
   auto& [mass, friction, restitution, ball_radius, moments, inverse_root_moments, turn, velocity, spin, asleep,
          wakes_with, wakes_spinning, slow_for, position_then, turn_then, load, substep_rate, retry_rest, rest_wait,
-         ignored, solver, island, velocity_before, spin_before, energy_before, pushed, accounted, acceleration, swung,
-         colliders, hinges, cables] = of;
+         ignored, solver, island, velocity_before, spin_before, energy_before, pushed, accounted, missing, acceleration,
+         swung, colliders, hinges, cables] = of;
   archive(mass, friction, restitution, ball_radius, moments, inverse_root_moments, turn, velocity, spin, asleep,
           wakes_with, wakes_spinning, slow_for, position_then, turn_then, load, substep_rate, retry_rest, rest_wait,
           ignored, acceleration, colliders, hinges, cables);

@@ -97,7 +97,7 @@ void DebrisWorld::advance(double dt, int parts, MovingStructure* structure) {
 
 void DebrisWorld::update_moving(double dt, MovingStructure& structure) {
   search_.update_bounds(dt);
-  scene_.pairs.find();
+  search_.find_near();
   moving_.update(dt, structure);
 }
 
@@ -136,13 +136,14 @@ int DebrisWorld::parts_for_spins(double dt) const {
     if (solid.kind != Touched::Kind::body) return;
     const auto& one = static_cast<const DebrisBody&>(solid);
     if (one.asleep || one.ball_radius > 0) return;
+    if (one.reach * one.spin.squaredNorm() * dt * dt < most) return;  // 1 - cos(a) is at most half of a^2
     const double angle = std::min(M_PI, one.spin.norm() * dt);
     most = std::max(most, one.reach * (1 - std::cos(angle)));
   };
   for (const std::uint32_t index : scene_.touching) {
-    const NearPair& pair = scene_.pairs.pair(index);
-    look_at(pair.first);
-    if (pair.second != NearPairs::ground) look_at(pair.second);
+    const PairEnds& ends = scene_.pairs.ends(index);
+    look_at(ends.first);
+    if (ends.second != NearPairs::ground) look_at(ends.second);
   }
   return std::clamp(static_cast<int>(std::ceil(std::sqrt(most / scene_.settings.leaves_plane))), 1,
                     scene_.settings.most_parts);
@@ -159,7 +160,7 @@ void DebrisWorld::find_contacts(double dt) {
   const auto find = [&] {
     scene_.wake_hinged();
     search_.update_bounds(dt);
-    scene_.pairs.find();
+    search_.find_near();
     search_.note_ways(dt);
     search_.seek_contacts();
     search_.find_touching();

@@ -9,7 +9,7 @@ namespace topple::collision {
 
 namespace {
 /// For which a piece of a loop is worth being handed on.
-constexpr std::size_t kBodies = 32, kDuePairs = 8;
+constexpr std::size_t kBodies = 32, kDuePairs = 8, kPairsScanned = 256, kMoved = 8;
 }  // namespace
 
 void PairSearch::update_bounds(double dt) {
@@ -26,6 +26,12 @@ void PairSearch::update_bounds(double dt) {
       scene_.pairs.move(one.colliders[i], bounds, scene_.settings.fat + way.norm());
     }
   }
+}
+
+void PairSearch::find_near() {
+  scene_.pairs.drop_far();
+  region_.each(scene_.pairs.moved_count(), kMoved, [&](std::size_t i) { scene_.pairs.seek(i); });
+  scene_.pairs.take_found();
 }
 
 /// No point of a body comes farther in the step than this: by its contacts it may lose its speed, but what pushes it
@@ -81,14 +87,23 @@ void PairSearch::seek(std::uint32_t index) {
   ends.touches = pair.manifold.count > 0;
 }
 
+/// Of all pairs those for which `is_chosen`, in order.
+template <class Choice>
+void PairSearch::choose(const Choice& is_chosen, std::vector<std::uint32_t>& chosen) {
+  const std::vector<std::uint32_t>& order = scene_.pairs.order();
+  chosen_.resize(order.size());
+  region_.each(order.size(), kPairsScanned, [&](std::size_t i) {
+    if (i + 4 * kAhead < order.size()) __builtin_prefetch(&scene_.pairs.ends(order[i + 4 * kAhead]));
+    chosen_[i] = is_chosen(scene_.pairs.ends(order[i])) ? 1 : 0;
+  });
+  chosen.clear();
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (chosen_[i] != 0) chosen.push_back(order[i]);
+}
+
 /// Each pair by itself. Few of those that are near are due.
 void PairSearch::seek_contacts() {
-  due_.clear();
-  const std::vector<std::uint32_t>& order = scene_.pairs.order();
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i + 4 * kAhead < order.size()) __builtin_prefetch(&scene_.pairs.ends(order[i + 4 * kAhead]));
-    if (is_due(scene_.pairs.ends(order[i]))) due_.push_back(order[i]);
-  }
+  choose([&](const PairEnds& ends) { return is_due(ends); }, due_);
   region_.each(due_.size(), kDuePairs, [&](std::size_t i) {
     if (i + kAhead < due_.size()) prefetch_lines(scene_.pairs.pair(due_[i + kAhead]));
     seek(due_[i]);
@@ -96,9 +111,7 @@ void PairSearch::seek_contacts() {
 }
 
 void PairSearch::find_touching() {
-  scene_.touching.clear();
-  for (const std::uint32_t index : scene_.pairs.order())
-    if (scene_.pairs.ends(index).touches) scene_.touching.push_back(index);
+  choose([](const PairEnds& ends) { return ends.touches; }, scene_.touching);
 }
 
 }  // namespace topple::collision

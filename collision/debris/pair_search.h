@@ -15,8 +15,10 @@ class PairSearch {
   PairSearch(DebrisScene& scene, const IgnoredPairs& ignored, ParallelRegion& region)
       : scene_(scene), ignored_(ignored), region_(region) {}
 
-  /// Where what is awake may be within `dt`: which pairs are near.
+  /// Where what is awake may be within `dt`.
   void update_bounds(double dt);
+  /// Which pairs are near, by their bounds.
+  void find_near();
   void note_ways(double dt);
   /// Contacts of all pairs that may have come together or apart since they were last looked at.
   void seek_contacts();
@@ -27,11 +29,14 @@ class PairSearch {
   [[nodiscard]] double margin_of(const Collider& a, const Collider& b) const;
   [[nodiscard]] bool is_due(const PairEnds& ends) const;
   void seek(std::uint32_t index);
+  template <class Choice>
+  void choose(const Choice& is_chosen, std::vector<std::uint32_t>& chosen);
 
   DebrisScene& scene_;
   const IgnoredPairs& ignored_;
   ParallelRegion& region_;
   std::vector<std::uint32_t> due_;  ///< pairs to be looked at, in order
+  std::vector<char> chosen_;        ///< of all pairs, in order: those that a loop has picked out
 };
 
 }  // namespace topple::collision

@@ -86,6 +86,8 @@ SolverContact SolvedIslands::solver_contact(std::uint32_t index) const {
   contact.held = ends.rests && a.asleep != b.asleep;
   contact.first_ball = a.ball;
   contact.second_ball = b.ball;
+  contact.points = contact.pair->manifold.count;
+  contact.corners_on_second = contact.pair->manifold.normal_on_first;
   return contact;
 }
 

@@ -76,7 +76,7 @@ void ContactPacking::colour(std::span<const std::uint32_t> set) {
     by_colour_[chosen].push_back(i);
   }
   // Few lanes of a pack stay without a point.
-  const auto points = [&](std::uint32_t i) { return contacts_[i].pair->manifold.count; };
+  const auto points = [&](std::uint32_t i) { return contacts_[i].points; };
   for (auto& list : by_colour_)
     std::stable_sort(list.begin(), list.end(), [&](std::uint32_t a, std::uint32_t b) { return points(a) > points(b); });
   for (const std::uint32_t i : set)
@@ -127,7 +127,7 @@ bool share_no_body(const ContactPack& one, const ContactPack& other) {
 /// Of one colour.
 void ContactPacking::fill_packs(std::span<const std::uint32_t> list) {
   colours_.push_back(packs_.size());
-  const auto points = [&](std::uint32_t i) { return contacts_[i].pair->manifold.count; };
+  const auto points = [&](std::uint32_t i) { return contacts_[i].points; };
   for (std::size_t begin = 0; begin < list.size(); begin += kLanes) {
     ContactPack& pack = packs_.emplace_back();
     pack.first_point = points_.size();

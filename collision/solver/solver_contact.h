@@ -13,6 +13,8 @@ struct SolverContact {
   double friction = 0, restitution = 0;
   bool held = false;  ///< one of the two sleeps since it came to rest on the other, which is awake
   bool first_ball = false, second_ball = false;
+  int points = 0;                 ///< of the pair's manifold
+  bool corners_on_second = true;  ///< they are the second's, on faces of the first
   // Where it lies in the packs.
   int pack = -1, lane = 0;
   std::array<Vec3, Manifold::most> places;  ///< of its points when the step began, global

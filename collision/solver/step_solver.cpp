@@ -287,7 +287,7 @@ Vec3 StepSolver::place_moves(const SolverContact& contact) const {
                    &second = bodies_[static_cast<std::size_t>(contact.second)];
   if (contact.first_ball && contact.second_ball) return (first.velocity + second.velocity) / 2;
   if (contact.first_ball || contact.second_ball) return contact.first_ball ? first.velocity : second.velocity;
-  const SolverBody& corners = contact.pair->manifold.normal_on_first ? second : first;
+  const SolverBody& corners = contact.corners_on_second ? second : first;
   return corners.velocity + corners.spin.cross(contact.centre - corners.at.position);
 }
 
