@@ -196,21 +196,28 @@ bool NearPairs::near(const PairEnds& pair) const {
   return a.fat.meets(b.fat);
 }
 
+bool NearPairs::is_far(const PairEnds& pair) const {
+  return (colliders_[pair.first].moved || colliders_[pair.second].moved || pair.second == ground) && !near(pair);
+}
+
 void NearPairs::find() {
-  drop_far();
+  if (!changed()) return;
+  std::vector<std::uint32_t> far;
+  std::copy_if(order_.begin(), order_.end(), std::back_inserter(far),
+               [&](std::uint32_t index) { return is_far(ends_[index]); });
+  drop(far);
   for (std::size_t i = 0; i < moved_.size(); ++i) seek(i);
   take_found();
 }
 
-void NearPairs::drop_far() {
-  if (found_.size() < moved_.size()) found_.resize(moved_.size());
-  if (moved_.empty() && !stale_) return;
+void NearPairs::drop(std::span<const std::uint32_t> far) {
   stale_ = false;
+  if (found_.size() < moved_.size()) found_.resize(moved_.size());
+  auto next = far.begin();
   std::erase_if(order_, [&](std::uint32_t index) {
-    const PairEnds& one = ends_[index];
-    if ((!colliders_[one.first].moved && !colliders_[one.second].moved && one.second != ground) || near(one))
-      return false;
-    part(one.first, one.second);
+    if (next == far.end() || *next != index) return false;
+    ++next;
+    part(ends_[index].first, ends_[index].second);
     free_pairs_.push_back(index);
     return true;
   });

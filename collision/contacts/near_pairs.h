@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "contacts/manifold.h"
@@ -129,9 +130,11 @@ class NearPairs {
   }
   /// Brings the pairs up to date.
   void find();
-  // The same in three: those that are no longer near go; what is new is sought for each that moved, in any order and
-  // side by side; it is taken in.
-  void drop_far();
+  // The same in parts: pairs that are no longer near (`far`, in order) go; what is new is sought for each collider that
+  // moved, in any order and side by side; it is taken in.
+  [[nodiscard]] bool changed() const { return !moved_.empty() || stale_; }
+  [[nodiscard]] bool is_far(const PairEnds& pair) const;
+  void drop(std::span<const std::uint32_t> far);
   [[nodiscard]] std::size_t moved_count() const { return moved_.size(); }
   void seek(std::size_t moved);
   void take_found();

@@ -28,8 +28,24 @@ void PairSearch::update_bounds(double dt) {
   }
 }
 
+/// Of all pairs those for which `is_chosen`, in order.
+template <class Choice>
+void PairSearch::choose(const Choice& is_chosen, std::vector<std::uint32_t>& chosen) {
+  const std::vector<std::uint32_t>& order = scene_.pairs.order();
+  chosen_.resize(order.size());
+  region_.each(order.size(), kPairsScanned, [&](std::size_t i) {
+    if (i + 4 * kAhead < order.size()) __builtin_prefetch(&scene_.pairs.ends(order[i + 4 * kAhead]));
+    chosen_[i] = is_chosen(scene_.pairs.ends(order[i])) ? 1 : 0;
+  });
+  chosen.clear();
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (chosen_[i] != 0) chosen.push_back(order[i]);
+}
+
 void PairSearch::find_near() {
-  scene_.pairs.drop_far();
+  if (!scene_.pairs.changed()) return;
+  choose([&](const PairEnds& ends) { return scene_.pairs.is_far(ends); }, far_);
+  scene_.pairs.drop(far_);
   region_.each(scene_.pairs.moved_count(), kMoved, [&](std::size_t i) { scene_.pairs.seek(i); });
   scene_.pairs.take_found();
 }
@@ -85,20 +101,6 @@ void PairSearch::seek(std::uint32_t index) {
   motion.ground_height = scene_.ground.height;
   ends.free_until = a.gone + b.gone + update_contacts(pair, motion, scene_.settings.kept, scene_.settings.matched);
   ends.touches = pair.manifold.count > 0;
-}
-
-/// Of all pairs those for which `is_chosen`, in order.
-template <class Choice>
-void PairSearch::choose(const Choice& is_chosen, std::vector<std::uint32_t>& chosen) {
-  const std::vector<std::uint32_t>& order = scene_.pairs.order();
-  chosen_.resize(order.size());
-  region_.each(order.size(), kPairsScanned, [&](std::size_t i) {
-    if (i + 4 * kAhead < order.size()) __builtin_prefetch(&scene_.pairs.ends(order[i + 4 * kAhead]));
-    chosen_[i] = is_chosen(scene_.pairs.ends(order[i])) ? 1 : 0;
-  });
-  chosen.clear();
-  for (std::size_t i = 0; i < order.size(); ++i)
-    if (chosen_[i] != 0) chosen.push_back(order[i]);
 }
 
 /// Each pair by itself. Few of those that are near are due.

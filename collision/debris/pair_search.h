@@ -36,6 +36,7 @@ class PairSearch {
   const IgnoredPairs& ignored_;
   ParallelRegion& region_;
   std::vector<std::uint32_t> due_;  ///< pairs to be looked at, in order
+  std::vector<std::uint32_t> far_;  ///< pairs that are no longer near, in order
   std::vector<char> chosen_;        ///< of all pairs, in order: those that a loop has picked out
 };
 

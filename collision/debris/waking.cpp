@@ -71,8 +71,10 @@ void Waking::wake_round(DebrisBody& struck, double momentum) {
 void Waking::wake_changed(std::span<const Push> pushes, double dt) {
   if (scene_.all_awake()) return;
   const double weight = scene_.gravity.norm(), share = 1 - std::exp(-dt / scene_.settings.pressed_over);
-  for (const auto& [solved, impulse] : pushes) {
-    NearPair& pair = *solved;
+  for (std::size_t i = 0; i < pushes.size(); ++i) {
+    if (i + kAhead < pushes.size()) prefetch_lines(*pushes[i + kAhead].pair);
+    NearPair& pair = *pushes[i].pair;
+    const Vec3& impulse = pushes[i].impulse;
     pair.pressed += share * (impulse / dt - pair.pressed);
     for (const bool second : {false, true}) {
       Solid* solid = scene_.pairs.collider(second ? pair.second : pair.first).solid;
@@ -83,7 +85,10 @@ void Waking::wake_changed(std::span<const Push> pushes, double dt) {
     }
   }
   // And what was pressed by one that has gone.
-  for (const std::uint32_t index : scene_.pairs.order()) {
+  const std::vector<std::uint32_t>& order = scene_.pairs.order();
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + 4 * kAhead < order.size()) __builtin_prefetch(&scene_.pairs.ends(order[i + 4 * kAhead]));
+    const std::uint32_t index = order[i];
     if (!scene_.pairs.ends(index).rests || scene_.pairs.ends(index).touches) continue;
     NearPair& pair = scene_.pairs.pair(index);
     if (pair.rest_force.isZero(0) || !scene_.awake(pair)) continue;

@@ -23,21 +23,23 @@ ContactDomains domains_of(std::span<const SolverContact> contacts, int ordered, 
 void ContactPacking::pack(std::span<SolverContact> contacts, std::size_t bodies, int ordered, int most_domains) {
   ContactDomains domains = domains_of(contacts, ordered, most_domains);
   contacts_ = contacts;
-  packs_.clear();
+  first_points_.clear();
   packed_.clear();
-  points_.clear();
+  point_count_ = 0;
   colours_.clear();
   sets_.clear();
   used_.assign(bodies, 0);
   for (const auto& set : domains.sets) {
-    sets_.push_back(packs_.size());
+    sets_.push_back(first_points_.size());
     colour(set);
     if (domains.sets.size() > 1) fill_last_packs();
     for (const auto& list : by_colour_)
-      if (!list.empty()) fill_packs(list);
+      if (!list.empty()) lay_out(list);
   }
-  sets_.push_back(packs_.size());
-  colours_.push_back(packs_.size());
+  sets_.push_back(first_points_.size());
+  colours_.push_back(first_points_.size());
+  if (packs_.size() < first_points_.size()) packs_.resize(first_points_.size());
+  if (points_.size() < point_count_) points_.resize(point_count_);
   stages_ = std::move(domains.stages);
 }
 
@@ -111,43 +113,47 @@ void ContactPacking::fill_last_packs() {
   }
 }
 
-namespace {
-bool share_no_body(const ContactPack& one, const ContactPack& other) {
-  const auto has = [](const int* bodies, int body) {
-    return body != 0 && (bodies[0] == body || bodies[1] == body || bodies[2] == body || bodies[3] == body);
-  };
-  bool shared = false;
-  for (const int* mine : {one.first_body, one.second_body})
-    for (int lane = 0; lane < kLanes; ++lane)
-      shared = shared || has(other.first_body, mine[lane]) || has(other.second_body, mine[lane]);
-  return !shared;
-}
-}  // namespace
-
 /// Of one colour.
-void ContactPacking::fill_packs(std::span<const std::uint32_t> list) {
-  colours_.push_back(packs_.size());
-  const auto points = [&](std::uint32_t i) { return contacts_[i].points; };
+void ContactPacking::lay_out(std::span<const std::uint32_t> list) {
+  colours_.push_back(first_points_.size());
   for (std::size_t begin = 0; begin < list.size(); begin += kLanes) {
-    ContactPack& pack = packs_.emplace_back();
-    pack.first_point = points_.size();
-    for (std::size_t i = begin; i < std::min(begin + kLanes, list.size()); ++i)
-      pack.point_count = std::max(pack.point_count, points(list[i]));
-    points_.resize(points_.size() + static_cast<std::size_t>(pack.point_count), PackPoint{});
-    packed_.resize(packed_.size() + kLanes, kNone);
-    for (std::size_t lane = 0; lane < kLanes && begin + lane < list.size(); ++lane) {
-      SolverContact& contact = contacts_[list[begin + lane]];
-      packed_[packed_.size() - kLanes + lane] = list[begin + lane];
-      contact.pack = static_cast<int>(packs_.size()) - 1;
-      contact.lane = static_cast<int>(lane);
-      pack.first_body[lane] = contact.first;
-      pack.second_body[lane] = contact.second;
+    int points = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t i = begin + lane < list.size() ? list[begin + lane] : kNone;
+      packed_.push_back(i);
+      if (i != kNone) points = std::max(points, contacts_[i].points);
     }
-    if (packs_.size() > 1) {
-      ContactPack& before = packs_[packs_.size() - 2];
-      before.apart_from_next = share_no_body(before, pack);
-    }
+    first_points_.push_back(point_count_);
+    point_count_ += static_cast<std::size_t>(points);
   }
+}
+
+bool ContactPacking::share_a_body(std::size_t one, std::size_t other) const {
+  const auto has = [&](int body) {
+    return body != 0 && std::any_of(lanes(other).begin(), lanes(other).end(), [&](std::uint32_t i) {
+             return i != kNone && (contacts_[i].first == body || contacts_[i].second == body);
+           });
+  };
+  return std::any_of(lanes(one).begin(), lanes(one).end(), [&](std::uint32_t i) {
+    return i != kNone && (has(contacts_[i].first) || has(contacts_[i].second));
+  });
+}
+
+void ContactPacking::begin(std::size_t pack) {
+  ContactPack& begun = packs_[pack];
+  begun = ContactPack{};
+  begun.first_point = first_points_[pack];
+  begun.point_count = static_cast<int>(end_of_points(pack + 1) - begun.first_point);
+  std::fill_n(points_.begin() + static_cast<std::ptrdiff_t>(begun.first_point), begun.point_count, PackPoint{});
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const std::uint32_t i = lanes(pack)[lane];
+    if (i == kNone) continue;
+    contacts_[i].pack = static_cast<int>(pack);
+    contacts_[i].lane = static_cast<int>(lane);
+    begun.first_body[lane] = contacts_[i].first;
+    begun.second_body[lane] = contacts_[i].second;
+  }
+  begun.apart_from_next = pack + 1 < first_points_.size() && !share_a_body(pack, pack + 1);
 }
 
 }  // namespace topple::collision

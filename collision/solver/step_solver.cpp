@@ -44,9 +44,9 @@ void StepSolver::each_body(const Work& work) {
   region_.each(bodies_.size() - 1, kBodies, [&](std::size_t i) { work(i + 1); });
 }
 
-/// Those of a pack by one thread.
-template <class Work>
-void StepSolver::each_contact(const Work& work) {
+/// Those of a pack by one thread, which begins with the pack.
+template <class Begin, class Work>
+void StepSolver::each_contact(const Begin& begin, const Work& work) {
   constexpr std::uint32_t none = ContactPacking::kNone;
   const std::vector<std::uint32_t>& packed = packing_.packed();
   region_.each(packing_.packs().size(), kPacks, [&](std::size_t pack) {
@@ -55,6 +55,7 @@ void StepSolver::each_contact(const Work& work) {
       if (packed[k] != none) prefetch_lines(*contacts_[packed[k]].pair);
     for (std::size_t k = kLanes * (pack + 2); k < std::min(kLanes * (pack + 3), packed.size()); ++k)
       if (packed[k] != none) prefetch_lines(contacts_[packed[k]]);
+    begin(pack);
     for (std::size_t k = kLanes * pack; k < kLanes * (pack + 1); ++k)
       if (packed[k] != none) work(contacts_[packed[k]]);
   });
@@ -270,11 +271,11 @@ void StepSolver::run(double dt, int substeps) {
   h_ = dt / substeps;
   scale_bodies(dt);
   packing_.pack(contacts_, bodies_.size(), ordered_, domains_of(contacts_.size()));
-  each_contact([&](SolverContact& contact) { prepare(contact, dt); });
+  each_contact([&](std::size_t pack) { packing_.begin(pack); }, [&](SolverContact& contact) { prepare(contact, dt); });
   for (HingeRows* hinge : hinges_) hinge->begin_step(h_);
   for (int i = 0; i < substeps; ++i) sub_step(i);
   each_pack(contact_kernels().restitute, {h_, settings_.pushed_apart, settings_.restitution_from});
-  each_contact([&](SolverContact& contact) { store_contact(contact, dt); });
+  each_contact([](std::size_t) {}, [&](SolverContact& contact) { store_contact(contact, dt); });
   for (HingeRows* hinge : hinges_) hinge->end_step(h_);
   unscale_bodies(dt);
   keep_angular_momentum();

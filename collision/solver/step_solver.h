@@ -76,8 +76,8 @@ class StepSolver {
   /// Calls work(number), and work(contact), side by side.
   template <class Work>
   void each_body(const Work& work);
-  template <class Work>
-  void each_contact(const Work& work);
+  template <class Begin, class Work>
+  void each_contact(const Begin& begin, const Work& work);
   [[nodiscard]] double energy_of_changes();
   void stop_closing(SubStep step);
   void relax(SubStep step);
