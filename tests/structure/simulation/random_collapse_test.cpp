@@ -18,7 +18,8 @@ TEST_CASE("random buildings under random tools come to rest, on the ground, with
   }
 }
 
-TEST_CASE("random buildings that move come to rest as well, and their joints that yield and panels that break") {
+TEST_CASE("random buildings that move come to rest as well, and their joints that yield and panels that break",
+          "[collapse]") {
   for (std::uint64_t number = 0; number < 16; ++number) {
     CAPTURE(number);
     try {
@@ -29,7 +30,8 @@ TEST_CASE("random buildings that move come to rest as well, and their joints tha
   }
 }
 
-TEST_CASE("random buildings keep the account of energy where what hangs, lies and leaves meets little mass") {
+TEST_CASE("random buildings keep the account of energy where what hangs, lies and leaves meets little mass",
+          "[collapse]") {
   // What hangs at a node of which most has left; at two nodes at once; beside what lies there; and what leaves with a
   // hinge within a step. A state of rest in which no iteration settles. A load that comes to other members.
   // Joints that turn and nothing else.

@@ -175,7 +175,7 @@ TEST_CASE("A joint with next to no capacity holds while it bears nothing, and br
   }
 }
 
-TEST_CASE("A house that is hit in motion makes no energy, and comes to rest") {
+TEST_CASE("A house that is hit in motion makes no energy, and comes to rest", "[collapse]") {
   auto [building, scenario] = read_scenario(find_scenario("house_hit"));
   scenario.standing = StandingRule::dynamics;
   Simulation simulation(building, scenario);
@@ -203,7 +203,7 @@ TEST_CASE("A house that is hit in motion makes no energy, and comes to rest") {
   CHECK(std::abs(simulation.ledger().residual()) < 0.005);
 }
 
-TEST_CASE("Nothing leaves what it has struck in motion faster than it came") {
+TEST_CASE("Nothing leaves what it has struck in motion faster than it came", "[collapse]") {
   auto [building, scenario] = read_scenario(find_scenario("shell_house_hit"));
   scenario.standing = StandingRule::dynamics;
   Simulation simulation(building, scenario);
