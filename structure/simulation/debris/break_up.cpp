@@ -294,13 +294,9 @@ std::vector<collision::BodyId> BreakUp::split(collision::BodyId id, const std::v
       write_part(own, motion_of(own).pose.position, log_.record(SimulationEvent::Kind::split, own.name));
     go_on(std::move(own));
   }
-  const std::size_t parts_made = made.size();
   for (Body& chunk : chunks) go_on(std::move(chunk));
   sums_.ledger.momentum_error = std::max(sums_.ledger.momentum_error, carried.error(handed_on));
   hinges_.hang_again(hung);
-  // Parts are born inside each other where they were joined.
-  for (std::size_t i = 0; i < parts_made; ++i)
-    for (std::size_t j = i + 1; j < parts_made; ++j) debris_.pass(made[i], made[j]);
   return made;
 }
 

@@ -69,3 +69,57 @@ TEST_CASE("a mast that topples breaks its arms off where it lands, and loses no 
     CHECK(std::abs(simulation.ledger().residual()) < 0.01);
   }
 }
+
+namespace {
+
+/// Two posts side by side, a little inside each other and joined halfway up. They stand free, and a ball hits one of
+/// them.
+Simulation standing_pair() {
+  const topple::test::ScratchFolder folder;
+  std::FILE* file = std::fopen((folder / "pair.json").string().c_str(), "w");
+  REQUIRE(file != nullptr);
+  std::fputs(R"({"topple": 1, "title": "Pair",
+ "materials": {"S355": {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850}},
+ "sections": {"tube": {"shape": "box", "depth": 0.2, "width": 0.2, "thickness": 0.01}},
+ "joints": {"weak": {"capacity": {"tension": 1e5, "compression": 1e5, "shear_y": 1e5, "shear_z": 1e5, "torsion": 1e4,
+                                  "moment_y": 1e4, "moment_z": 1e4}}},
+ "nodes": {"F": [0, 0, 0], "M": [0, 0, 2], "T": [0, 0, 4], "G": [0.19, 0, 0], "N": [0.19, 0, 2], "U": [0.19, 0, 4]},
+ "members": {"P1": {"kind": "post", "nodes": ["F", "M"], "section": "tube", "material": "S355"},
+             "P2": {"kind": "post", "nodes": ["M", "T"], "section": "tube", "material": "S355"},
+             "Q1": {"kind": "post", "nodes": ["G", "N"], "section": "tube", "material": "S355"},
+             "Q2": {"kind": "post", "nodes": ["N", "U"], "section": "tube", "material": "S355"},
+             "R": {"nodes": ["M", "N"], "section": "tube", "material": "S355", "joints": ["weak", null]}},
+ "supports": {"F": "fixed", "G": "fixed"}})",
+             file);
+  std::fclose(file);
+  auto [building, scenario] = parse_scenario(
+      R"({"topple": 1, "model": "pair.json", "duration": 0.5, "failure": {"bracing": "none"},
+          "events": [{"at": 0.1, "remove": {"supports": ["F", "G"]}},
+                     {"at": 0.15, "projectile": {"from": [-3, 0, 1.9], "velocity": [40, 0, 0], "mass": 200, "radius": 0.2}}]})",
+      "s.json", folder.path());
+  return Simulation(std::move(building), std::move(scenario));
+}
+
+}  // namespace
+
+TEST_CASE("pieces that a body breaks into do not go through each other") {
+  Simulation simulation = standing_pair();
+  bool apart = false;
+  double least = 1;
+  while (!simulation.finished()) {
+    simulation.step();
+    const BodyView *struck = nullptr, *other = nullptr;
+    for (const BodyView& body : simulation.bodies())
+      for (const MemberId member : body.members) {
+        if (simulation.building()[member].name == "P1") struck = &body;
+        if (simulation.building()[member].name == "Q1") other = &body;
+      }
+    if (!struck || struck == other) continue;
+    apart = true;
+    for (const double z : {0.5, 1.5, 2.5, 3.5})
+      least = std::min(least, (other->pose * Vec3(Vec3(0.19, 0, z) - other->rest_centre)).x() -
+                                  (struck->pose * Vec3(Vec3(0, 0, z) - struck->rest_centre)).x());
+  }
+  CHECK(apart);
+  CHECK(least > 0.2 - 0.02);
+}
