@@ -8,6 +8,7 @@
 #include "contacts/apart.h"
 #include "contacts/moving_pairs.h"
 #include "contacts/touch_contact.h"
+#include "debris/motion_ahead.h"
 
 namespace topple::collision {
 
@@ -23,13 +24,6 @@ std::vector<SweptPart> swept_parts(const Solid& solid, const Motion& motion, dou
   std::vector<SweptPart> all;
   for (std::size_t i = 0; i < solid.parts.size(); ++i) all.push_back({i, swept_bounds(solid.parts[i], motion, dt)});
   return all;
-}
-
-btTransform transform_of(const Solid& solid) {
-  const Placement& placed = static_cast<const TouchingSolid&>(solid).at;
-  const Mat3& m = placed.turn;
-  return btTransform(btMatrix3x3(m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)),
-                     to_bullet(placed.position));
 }
 
 Placement placement_of(const btTransform& at) { return {from_bullet(at.getOrigin()), from_bullet(at.getBasis())}; }
@@ -51,39 +45,6 @@ struct Met {
   const Motion& motion;
   std::span<const SweptPart> parts;
 };
-
-Motion motion_of(const DebrisBody& body, const Vec3& gravity, double dt) {
-  Motion motion;
-  motion.start = transform_of(body);
-  if (!body.asleep) {
-    // What lies is borne in this step as in the last: it does not fall upon what is near. What was struck falls on.
-    const bool struck = body.acceleration.squaredNorm() > gravity.squaredNorm();
-    const Vec3 acceleration = struck ? gravity : body.acceleration;
-    motion.acceleration = to_bullet(acceleration);
-    // Stored velocities are those of mid-step; they came from the middle of the last sub-step.
-    const double substep = body.substep_rate > 0 ? 1 / body.substep_rate : 0;
-    motion.velocity = to_bullet(body.velocity + gravity * (dt / 2) + (acceleration - gravity) * (substep / 2));
-  }
-  motion.angular_velocity = to_bullet(body.spin);
-  return motion;
-}
-
-/// Over a part of a step an obstacle goes on as it does.
-Motion straight_on(const Solid& obstacle, const ObstaclePath& path) {
-  Motion motion;
-  motion.start = to_bullet(path.pose) * obstacle.frame;
-  const Vec3 arm = from_bullet(motion.start.getOrigin()) - path.pose.position;
-  motion.velocity = to_bullet(Vec3(path.velocity + path.angular_velocity.cross(arm)));
-  motion.angular_velocity = to_bullet(path.angular_velocity);
-  return motion;
-}
-
-/// As the world has it; nullptr for what stands still.
-const ObstacleMotion* motion_in_world(const Solid& solid) {
-  if (solid.kind != Touched::Kind::obstacle) return nullptr;
-  const auto& one = static_cast<const DebrisObstacle&>(solid);
-  return one.moves ? &one.motion : nullptr;
-}
 
 Mover mover_of(const DebrisBody& body, const Motion& motion, double duration) {
   Mover mover;
@@ -190,7 +151,7 @@ std::vector<Mover> BodySweep::movers() const {
   for (const BodyId id : scene_.order) {
     const DebrisBody& one = scene_.body(id.value);
     if (one.asleep) continue;
-    result.push_back(mover_of(one, motion_of(one, scene_.gravity, dt_), dt_));
+    result.push_back(mover_of(one, motion_ahead(one, scene_.gravity, dt_), dt_));
     result.back().asked = asked(id);
   }
   return result;
@@ -256,15 +217,12 @@ void BodySweep::sweep_movers(const std::vector<Mover>& movers, std::vector<Conta
 
 }  // namespace
 
-bool still_to_pass(const DebrisScene& scene, const DebrisBody& first, const Solid& other, bool other_moves, double dt) {
+bool still_to_pass(const DebrisScene& scene, const DebrisBody& first, const Solid& other, double dt) {
   const double ahead = 2 * dt;
-  Motion other_motion;
-  other_motion.start = transform_of(other);
-  if (other_moves) other_motion = motion_of(static_cast<const DebrisBody&>(other), scene.gravity, dt);
-  if (const ObstacleMotion* moved = motion_in_world(other)) other_motion = straight_on(other, moved->path());
+  const Motion other_motion = motion_ahead(other, scene.gravity, dt);
   const double resting_speed = 2 * scene.gravity.norm() * dt;
   std::vector<Contact> found;
-  find_touches(mover_of(first, motion_of(first, scene.gravity, dt), ahead),
+  find_touches(mover_of(first, motion_ahead(first, scene.gravity, dt), ahead),
                {other, other_motion, swept_parts(other, other_motion, ahead)}, ahead, resting_speed, found);
   return std::any_of(found.begin(), found.end(),
                      [&](const Contact& contact) { return contact.approach_speed > resting_speed; });

@@ -10,9 +10,7 @@ namespace topple::collision {
 
 /// Whether the two meet within this step of `dt` or the next, faster than what rests does: one that is about to go
 /// through the other. (This step alone would not do: who is told at the end of a step to pass has yet to arrive.)
-/// `other_moves`: it is a body that is awake.
-[[nodiscard]] bool still_to_pass(const DebrisScene& scene, const DebrisBody& first, const Solid& other,
-                                 bool other_moves, double dt);
+[[nodiscard]] bool still_to_pass(const DebrisScene& scene, const DebrisBody& first, const Solid& other, double dt);
 
 /// First touches within `dt`, each pair of parts once, the body with the lower id first. In no order.
 [[nodiscard]] std::vector<Contact> first_touches(const DebrisScene& scene, const IgnoredPairs& ignored, double dt,

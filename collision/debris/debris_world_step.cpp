@@ -162,7 +162,7 @@ void DebrisWorld::find_contacts(double dt) {
     search_.update_bounds(dt);
     search_.find_near();
     search_.note_ways(dt);
-    search_.seek_contacts();
+    search_.seek_contacts(dt);
     search_.find_touching();
     moving_.wake_carried();
     waking_.wake_struck(dt);

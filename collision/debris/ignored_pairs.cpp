@@ -86,8 +86,7 @@ void IgnoredPairs::release(double dt, bool about_to_step) {
     const bool moves = !first.asleep || other_moves;
     const bool kept = pair->second;
     if (about_to_step) pair->second = false;
-    const bool apart =
-        !kept && moves && separated(first, other) && !still_to_pass(scene_, first, other, other_moves, dt);
+    const bool apart = !kept && moves && separated(first, other) && !still_to_pass(scene_, first, other, dt);
     if (apart) {
       ignore(who, false);
       released_[who] = scene_.step_number;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contacts/pair_contacts.h"
+#include "debris/passing_pairs.h"
 
 namespace topple::collision {
 
@@ -104,12 +105,16 @@ void PairSearch::seek(std::uint32_t index) {
 }
 
 /// Each pair by itself. Few of those that are near are due.
-void PairSearch::seek_contacts() {
+void PairSearch::seek_contacts(double dt) {
   choose([&](const PairEnds& ends) { return is_due(ends); }, due_);
+  chosen_.resize(due_.size());
   region_.each(due_.size(), kDuePairs, [&](std::size_t i) {
     if (i + kAhead < due_.size()) prefetch_lines(scene_.pairs.pair(due_[i + kAhead]));
     seek(due_[i]);
+    chosen_[i] = may_push(scene_, due_[i], dt) ? 1 : 0;
   });
+  for (std::size_t i = 0; i < due_.size(); ++i)
+    if (chosen_[i] != 0) clear_if_passing(scene_, due_[i], dt);
 }
 
 void PairSearch::find_touching() {

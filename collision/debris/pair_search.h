@@ -20,8 +20,9 @@ class PairSearch {
   /// Which pairs are near, by their bounds.
   void find_near();
   void note_ways(double dt);
-  /// Contacts of all pairs that may have come together or apart since they were last looked at.
-  void seek_contacts();
+  /// Contacts of all pairs that may have come together or apart since they were last looked at. Those of two that will
+  /// not touch within `dt`, as they move, lie so far apart that they do not push.
+  void seek_contacts(double dt);
   /// DebrisScene::touching.
   void find_touching();
 
@@ -37,7 +38,7 @@ class PairSearch {
   ParallelRegion& region_;
   std::vector<std::uint32_t> due_;  ///< pairs to be looked at, in order
   std::vector<std::uint32_t> far_;  ///< pairs that are no longer near, in order
-  std::vector<char> chosen_;        ///< of all pairs, in order: those that a loop has picked out
+  std::vector<char> chosen_;        ///< of the pairs that a loop goes through: those that it has picked out
 };
 
 }  // namespace topple::collision

@@ -42,7 +42,7 @@ void Waking::wake_struck(double dt) {
     if (!again) break;
     scene_.wake_hinged();
     search_.note_ways(dt);
-    search_.seek_contacts();
+    search_.seek_contacts(dt);
     search_.find_touching();
   }
 }

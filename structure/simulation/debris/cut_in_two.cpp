@@ -83,6 +83,7 @@ void Release::release_in_two(const Detached& part) {
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
   release_impulses.apply(whole, velocity, spin, sums.ledger);
 
+  std::vector<collision::BodyId> made;
   Momentum carried{whole.rest.centre}, handed_on{whole.rest.centre};
   carried.add(whole, {{whole.rest.centre, Eigen::Quaterniond::Identity()}, velocity, spin});
   for (int end = 0; end < 2; ++end) {
@@ -101,6 +102,7 @@ void Release::release_in_two(const Detached& part) {
     }
     const JointId joint = piece.end_joint;
     const collision::BodyId id = debris.add(std::move(piece), moves, spin, displacement);
+    made.push_back(id);
     collision::BodyState state = scene.world->state(id);
     state.velocity = scene.reading().true_velocity(state.velocity);
     state.pose.position -= displacement;
@@ -108,6 +110,7 @@ void Release::release_in_two(const Detached& part) {
     if (std::find(part.hinges.begin(), part.hinges.end(), joint) != part.hinges.end()) hinges.hang_on({joint}, id);
   }
   sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, carried.error(handed_on));
+  if (made.size() == 2) debris.pass(made[0], made[1]);
 }
 
 }  // namespace topple::structure

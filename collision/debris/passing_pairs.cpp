@@ -1,0 +1,67 @@
+#include "debris/passing_pairs.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "debris/motion_ahead.h"
+
+namespace topple::collision {
+
+namespace {
+
+/// Where contacts would be at the end of the step, as the solver has it: by planes, and arms as they are now.
+struct Foreseen {
+  Motion first, second;
+  double least = std::numeric_limits<double>::infinity();  ///< m apart
+  double clear = 0;                                        ///< m apart, with which none pushes
+};
+
+Foreseen foresee(const DebrisScene& scene, const PairEnds& ends, const Manifold& manifold, double dt) {
+  const Solid &one = *scene.pairs.collider(ends.first).solid, &other = *scene.pairs.collider(ends.second).solid;
+  Foreseen made{motion_ahead(one, scene.gravity, dt), motion_ahead(other, scene.gravity, dt)};
+  const Placement &first_at = DebrisScene::placement(one), &second_at = DebrisScene::placement(other);
+  const btVector3 normal = to_bullet(manifold.normal);
+  for (int i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
+    const btVector3 place = to_bullet(Vec3((first_at * point.on_first + second_at * point.on_second) / 2));
+    const btVector3 way = (made.first.point_velocity(place, 0) - made.second.point_velocity(place, 0)) * dt +
+                          (made.first.acceleration - made.second.acceleration) * (dt * dt / 2);
+    made.least = std::min(made.least, point.separation - way.dot(normal));
+  }
+  // Spins change within the step, by less than their squares.
+  const double turned =
+      made.first.angular_velocity.length2() * one.reach + made.second.angular_velocity.length2() * other.reach;
+  made.clear = scene.settings.touching + dt * dt / 2 * turned;
+  return made;
+}
+
+}  // namespace
+
+bool may_push(const DebrisScene& scene, std::uint32_t pair, double dt) {
+  const PairEnds& ends = scene.pairs.ends(pair);
+  if (!ends.touches || ends.second == NearPairs::ground) return false;
+  const Manifold& manifold = scene.pairs.pair(pair).manifold;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < manifold.count; ++i)
+    nearest = std::min(nearest, manifold.points[static_cast<std::size_t>(i)].separation);
+  const double touching = scene.settings.touching,
+               way = scene.pairs.collider(ends.first).way + scene.pairs.collider(ends.second).way;
+  if (nearest <= touching || nearest - way >= touching) return false;
+  const Foreseen then = foresee(scene, ends, manifold, dt);
+  return then.least < then.clear;
+}
+
+void clear_if_passing(DebrisScene& scene, std::uint32_t pair, double dt) {
+  const PairEnds& ends = scene.pairs.ends(pair);
+  Manifold& manifold = scene.pairs.pair(pair).manifold;
+  const auto part_of = [&](std::uint32_t collider) -> const SolidPart& {
+    const Collider& one = scene.pairs.collider(collider);
+    return one.solid->parts[static_cast<std::size_t>(one.part)];
+  };
+  const Foreseen then = foresee(scene, ends, manifold, dt);
+  if (first_touch(part_of(ends.first), then.first, part_of(ends.second), then.second, dt)) return;
+  for (int i = 0; i < manifold.count; ++i)
+    manifold.points[static_cast<std::size_t>(i)].separation += then.clear - then.least;
+}
+
+}  // namespace topple::collision
