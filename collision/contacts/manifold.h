@@ -1,6 +1,8 @@
 #pragma once
 // Where two convex parts touch or are about to: at most four points with one normal.
+#include <algorithm>
 #include <array>
+#include <limits>
 
 #include "topple/collision/world.h"
 
@@ -41,6 +43,13 @@ struct Manifold {
   double twist = 0;                    ///< the same about the normal, N m
   Vec3 friction_force = Vec3::Zero();  ///< mean of the last step, N
   double twist_force = 0;              ///< N m
+
+  /// m: how far the nearest points are apart; infinite where there are none.
+  [[nodiscard]] double nearest() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < count; ++i) least = std::min(least, points[static_cast<std::size_t>(i)].separation);
+    return least;
+  }
 };
 template <class Archive>
 void serialize(Archive& archive, Manifold& of) {

@@ -20,14 +20,6 @@ constexpr double kLeastPush = 1e-12;
 /// For which a piece of a loop is worth being handed on.
 constexpr std::size_t kContacts = 32;
 
-/// Separation of the nearest point, m.
-double nearest(const Manifold& manifold) {
-  double least = 1e300;
-  for (int i = 0; i < manifold.count; ++i)
-    least = std::min(least, manifold.points[static_cast<std::size_t>(i)].separation);
-  return least;
-}
-
 /// Two parts that share their tags with others of their bodies are told as one.
 void merge(const Contact& more, Contact& sum) {
   const double a = sum.impulse.norm(), b = more.impulse.norm(), share = a + b > 0 ? b / (a + b) : 0.5;
@@ -68,7 +60,7 @@ bool ContactReport::touches(const SolverContact& solved) const {
   NearPair& pair = *solved.pair;
   if (pair.told_in != scene_.step_number) pair.persistent = pair.touches;
   pair.told_in = scene_.step_number;
-  pair.touches = !solved.impulse.isZero(0) || nearest(pair.manifold) <= kTouching;
+  pair.touches = !solved.impulse.isZero(0) || pair.manifold.nearest() <= kTouching;
   return pair.touches;
 }
 
@@ -85,7 +77,7 @@ void ContactReport::fill(const SolverContact& solved, double dt, Contact& contac
   contact.normal = manifold.normal;
   contact.impulse = solved.impulse;
   locate(solved, dt, contact);
-  contact.depth = std::max(0.0, -nearest(manifold));
+  contact.depth = std::max(0.0, -manifold.nearest());
   contact.thickness = other ? std::min(part.thickness, other->thickness) : part.thickness;
   contact.persistent = pair.persistent;
   for (int i = 0; i < manifold.count; ++i) {

@@ -12,15 +12,14 @@ btTransform transform_of(const Solid& solid) {
 Motion motion_ahead(const DebrisBody& body, const Vec3& gravity, double dt) {
   Motion motion;
   motion.start = transform_of(body);
-  if (!body.asleep) {
-    // What lies is borne in this step as in the last: it does not fall upon what is near. What was struck falls on.
-    const bool struck = body.acceleration.squaredNorm() > gravity.squaredNorm();
-    const Vec3 acceleration = struck ? gravity : body.acceleration;
-    motion.acceleration = to_bullet(acceleration);
-    // Stored velocities are those of mid-step; they came from the middle of the last sub-step.
-    const double substep = body.substep_rate > 0 ? 1 / body.substep_rate : 0;
-    motion.velocity = to_bullet(body.velocity + gravity * (dt / 2) + (acceleration - gravity) * (substep / 2));
-  }
+  if (body.asleep) return motion;
+  // What lies is borne in this step as in the last: it does not fall upon what is near. What was struck falls on.
+  const bool struck = body.acceleration.squaredNorm() > gravity.squaredNorm();
+  const Vec3 acceleration = struck ? gravity : body.acceleration;
+  motion.acceleration = to_bullet(acceleration);
+  // Stored velocities are those of mid-step; they came from the middle of the last sub-step.
+  const double substep = body.substep_rate > 0 ? 1 / body.substep_rate : 0;
+  motion.velocity = to_bullet(body.velocity + gravity * (dt / 2) + (acceleration - gravity) * (substep / 2));
   motion.angular_velocity = to_bullet(body.spin);
   return motion;
 }

@@ -113,6 +113,7 @@ void PairSearch::seek_contacts(double dt) {
     seek(due_[i]);
     chosen_[i] = may_push(scene_, due_[i], dt) ? 1 : 0;
   });
+  // These are few. They are one after the other: the search for a touch is Bullet's, which promises nothing of threads.
   for (std::size_t i = 0; i < due_.size(); ++i)
     if (chosen_[i] != 0) clear_if_passing(scene_, due_[i], dt);
 }

@@ -41,10 +41,7 @@ bool may_push(const DebrisScene& scene, std::uint32_t pair, double dt) {
   const PairEnds& ends = scene.pairs.ends(pair);
   if (!ends.touches || ends.second == NearPairs::ground) return false;
   const Manifold& manifold = scene.pairs.pair(pair).manifold;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < manifold.count; ++i)
-    nearest = std::min(nearest, manifold.points[static_cast<std::size_t>(i)].separation);
-  const double touching = scene.settings.touching,
+  const double nearest = manifold.nearest(), touching = scene.settings.touching,
                way = scene.pairs.collider(ends.first).way + scene.pairs.collider(ends.second).way;
   if (nearest <= touching || nearest - way >= touching) return false;
   const Foreseen then = foresee(scene, ends, manifold, dt);

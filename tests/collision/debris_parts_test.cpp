@@ -42,7 +42,7 @@ struct Boxes {
     search.update_bounds(dt);
     scene.pairs.find();
     search.note_ways(dt);
-    search.seek_contacts(1.0 / 60);
+    search.seek_contacts(dt);
     search.find_touching();
     return scene.touching.size();
   }

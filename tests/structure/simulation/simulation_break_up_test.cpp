@@ -1,7 +1,7 @@
 // Debris that breaks further in a running simulation.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
+#include <fstream>
 
 #include "support/scratch_folder.h"
 #include "topple/structure/formats/files.h"
@@ -26,18 +26,20 @@ std::string model(double strength) {
  "supports": {"F": "fixed"}})";
 }
 
-Simulation falling(double strength) {
+/// The scenario's model is `model.json`.
+Simulation simulation_of(const std::string& model, const std::string& scenario) {
   const topple::test::ScratchFolder folder;
-  std::FILE* file = std::fopen((folder / "mast.json").string().c_str(), "w");
-  REQUIRE(file != nullptr);
-  std::fputs(model(strength).c_str(), file);
-  std::fclose(file);
-  auto [building, scenario] = parse_scenario(
-      R"({"topple": 1, "model": "mast.json", "standing": "static", "duration": 20, "failure": {"bracing": "none"},
+  std::ofstream(folder / "model.json") << model;
+  auto [building, course] = parse_scenario(scenario, "s.json", folder.path());
+  return Simulation(std::move(building), std::move(course));
+}
+
+Simulation falling(double strength) {
+  return simulation_of(
+      model(strength),
+      R"({"topple": 1, "model": "model.json", "standing": "static", "duration": 20, "failure": {"bracing": "none"},
           "events": [{"at": 0.1, "remove": {"supports": ["F"]}},
-                     {"at": 0.15, "projectile": {"from": [-3, 1.2, 7], "velocity": [0, -30, 0], "mass": 40, "radius": 0.2}}]})",
-      "s.json", folder.path());
-  return Simulation(std::move(building), std::move(scenario));
+                     {"at": 0.15, "projectile": {"from": [-3, 1.2, 7], "velocity": [0, -30, 0], "mass": 40, "radius": 0.2}}]})");
 }
 
 }  // namespace
@@ -75,10 +77,8 @@ namespace {
 /// Two posts side by side, a little inside each other and joined halfway up. They stand free, and a ball hits one of
 /// them.
 Simulation standing_pair() {
-  const topple::test::ScratchFolder folder;
-  std::FILE* file = std::fopen((folder / "pair.json").string().c_str(), "w");
-  REQUIRE(file != nullptr);
-  std::fputs(R"({"topple": 1, "title": "Pair",
+  return simulation_of(
+      R"({"topple": 1, "title": "Pair",
  "materials": {"S355": {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850}},
  "sections": {"tube": {"shape": "box", "depth": 0.2, "width": 0.2, "thickness": 0.01}},
  "joints": {"weak": {"capacity": {"tension": 1e5, "compression": 1e5, "shear_y": 1e5, "shear_z": 1e5, "torsion": 1e4,
@@ -90,14 +90,9 @@ Simulation standing_pair() {
              "Q2": {"kind": "post", "nodes": ["N", "U"], "section": "tube", "material": "S355"},
              "R": {"nodes": ["M", "N"], "section": "tube", "material": "S355", "joints": ["weak", null]}},
  "supports": {"F": "fixed", "G": "fixed"}})",
-             file);
-  std::fclose(file);
-  auto [building, scenario] = parse_scenario(
-      R"({"topple": 1, "model": "pair.json", "duration": 0.5, "failure": {"bracing": "none"},
+      R"({"topple": 1, "model": "model.json", "duration": 0.5, "failure": {"bracing": "none"},
           "events": [{"at": 0.1, "remove": {"supports": ["F", "G"]}},
-                     {"at": 0.15, "projectile": {"from": [-3, 0, 1.9], "velocity": [40, 0, 0], "mass": 200, "radius": 0.2}}]})",
-      "s.json", folder.path());
-  return Simulation(std::move(building), std::move(scenario));
+                     {"at": 0.15, "projectile": {"from": [-3, 0, 1.9], "velocity": [40, 0, 0], "mass": 200, "radius": 0.2}}]})");
 }
 
 }  // namespace
