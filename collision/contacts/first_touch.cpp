@@ -10,14 +10,12 @@
 #include <cmath>
 
 #include "contacts/contact_area.h"
+#include "contacts/manifold.h"
 
 namespace topple::collision {
 
 namespace {
 
-/// Parts nearer than this (m) touch. What is left is gone through at the approach speed, so times are exact to second
-/// order.
-constexpr double kTouching = 1e-4;
 /// No advance is shorter than it takes to close by this (m): slow pairs, such as those at rest, take few. What it
 /// oversteps is taken back with the approach speed.
 constexpr double kLeastClosing = 5e-4;
@@ -88,16 +86,16 @@ double turning_bend(const SolidPart& part, const Motion& motion, const btVector3
   return motion.angular_velocity.length() * turning_bound(part, motion, normal);
 }
 
-/// From `time` on the gap, which is `now` along n, stays above `least` for so long, s, or for `shortest` where that is
-/// not known. It is the least of functions of time that bend by B at most: between g now and h after D it is above
-/// (1 - s) g + s h - s (1 - s) B D^2/2 at any share s of D.
+/// From `time` on the gap, which is `now` along n, stays above `least` for so long, s; 0 where that is not known to be
+/// longer than `shortest` or to the end. It is the least of functions of time that bend by B at most: between g now and
+/// h after D it is above (1 - s) g + s h - s (1 - s) B D^2/2 at any share s of D.
 double stays_apart(const ClosingPair& pair, Carrier carrier, const btVector3& normal, double now, double time,
                    double least, double shortest, double longest) {
   const double bend = pair.bend(carrier, normal, time);
   const btVector3 turn = pair.turn(carrier);
   const double rate = turn.length();
   double length = longest;
-  for (int i = 0; i < kTries && length > shortest; ++i) {
+  for (int i = 0; i < kTries && (length > shortest || length == longest); ++i) {
     const btVector3 turned = rate > 0 ? normal.rotate(turn / rate, rate * length) : normal;
     const double then = pair.gap(turned, time + length), sag = bend * length * length / 2;
     const double share = sag > 0 ? std::clamp((sag - (then - now)) / (2 * sag), 0.0, 1.0) : then < now ? 1 : 0;
@@ -106,15 +104,17 @@ double stays_apart(const ClosingPair& pair, Carrier carrier, const btVector3& no
     const double until = then < now ? (now - least) / (now - then) : 1;  // where a straight line would come to it
     length *= std::clamp(0.9 * until, 0.1, 0.6);
   }
-  return shortest;
+  return 0;
 }
 
+/// What touches at the end of the duration has touched within it, however little it has closed: the shorter the
+/// duration, the less that is.
 std::optional<Touch> advance(const ClosingPair& pair, double duration) {
-  double time = 0;
-  while (time <= duration) {
+  for (double time = 0;;) {
     const Closest closest = pair.closest(time);
     if (closest.distance >= BT_LARGE_FLOAT) return std::nullopt;
-    if (closest.distance <= kTouching) {
+    if (closest.distance <= kTouchDistance) {
+      // What is left is gone through at that speed, so times are exact to second order.
       const double speed = pair.approach_speed(closest.normal, closest.point, time);
       if (speed > 0) {
         Touch touch;
@@ -124,23 +124,22 @@ std::optional<Touch> advance(const ClosingPair& pair, double duration) {
         return touch;
       }
     }
-    const double bound = pair.closing_bound(closest.normal, time);
-    if (!(bound > 0)) return std::nullopt;
+    const double bound = pair.closing_bound(closest.normal, time), left = duration - time;
     // What touches and does not close yet may come a little nearer.
-    const double least = closest.distance > kTouching ? kTouching / 2 : closest.distance - kLeastClosing;
+    const double least = closest.distance > kTouchDistance ? kTouchDistance / 2 : closest.distance - kLeastClosing;
+    if (!(left > 0) || bound * left <= closest.distance - least) return std::nullopt;
     const double shortest =
-        std::max({(closest.distance - kTouching / 2) / bound, kLeastClosing / bound, kLeastAdvance * duration});
-    if (duration - time <= shortest) return std::nullopt;
+        std::max({(closest.distance - kTouchDistance / 2) / bound, kLeastClosing / bound, kLeastAdvance * duration});
     const double now = pair.gap(closest.normal, time);
     double apart = shortest;
     for (const Carrier carrier : {Carrier::none, Carrier::first, Carrier::second}) {
       if (carrier != Carrier::none && pair.turn(carrier).isZero()) continue;
-      apart = stays_apart(pair, carrier, closest.normal, now, time, least, apart, duration - time);
-      if (apart >= duration - time) return std::nullopt;
+      const double proven = stays_apart(pair, carrier, closest.normal, now, time, least, apart, left);
+      if (proven >= left) return std::nullopt;
+      apart = std::max(apart, proven);
     }
-    time += apart;
+    time = apart < left ? time + apart : duration;
   }
-  return std::nullopt;
 }
 
 struct PartPair : ClosingPair {
@@ -270,6 +269,11 @@ std::optional<Touch> first_touch(const SolidPart& first, const Motion& first_mot
   find_contact_area(first, first_motion.at(touch->time), second, second_motion.at(touch->time), *touch);
   touch->approach_speed = fastest_approach(pair, *touch);
   return touch;
+}
+
+bool touches(const SolidPart& first, const Motion& first_motion, const SolidPart& second, const Motion& second_motion,
+             double duration) {
+  return advance(PartPair(first, first_motion, second, second_motion, duration), duration).has_value();
 }
 
 std::optional<Touch> first_touch_of_ground(const SolidPart& part, const Motion& motion, double height,

@@ -32,6 +32,9 @@ struct Touch {
 /// overlap from the start touch at time 0 when they close.
 [[nodiscard]] std::optional<Touch> first_touch(const SolidPart& first, const Motion& first_motion,
                                                const SolidPart& second, const Motion& second_motion, double duration);
+/// Whether there is one.
+[[nodiscard]] bool touches(const SolidPart& first, const Motion& first_motion, const SolidPart& second,
+                           const Motion& second_motion, double duration);
 /// The same against the half space below z = height.
 [[nodiscard]] std::optional<Touch> first_touch_of_ground(const SolidPart& part, const Motion& motion, double height,
                                                          double duration);

@@ -8,6 +8,9 @@
 
 namespace topple::collision {
 
+/// m: two that are nearer touch where they close, and those that are proven to be farther apart do not.
+inline constexpr double kTouchDistance = 1e-4;
+
 /// Where a solid's own frame is, with its rotation as a matrix.
 struct Placement {
   Vec3 position = Vec3::Zero();
@@ -49,6 +52,10 @@ struct Manifold {
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < count; ++i) least = std::min(least, points[static_cast<std::size_t>(i)].separation);
     return least;
+  }
+  /// Whether it pushed in the last step.
+  [[nodiscard]] bool bears() const {
+    return std::any_of(points.begin(), points.begin() + count, [](const ManifoldPoint& one) { return one.force > 0; });
   }
 };
 template <class Archive>

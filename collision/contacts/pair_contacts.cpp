@@ -80,7 +80,8 @@ double update_contacts(NearPair& pair, const PairMotion& motion, double kept, do
     if (pair.clear > 0 && away + motion.margin < pair.clear) return pair.clear - away;
     if (pair.clear <= 0 && away <= kept && motion.margin <= pair.margin + kept) {
       carry(pair, motion);
-      return 0;
+      // What goes past an edge meanwhile comes through the plane that it had: nothing begins to push by that.
+      if (pair.manifold.nearest() > 0 || pair.manifold.bears()) return 0;
     }
   }
   const Manifold old = pair.manifold;

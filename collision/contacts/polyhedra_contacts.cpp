@@ -27,6 +27,13 @@ struct Found {
   SeparatingAxis axis;
 };
 
+/// m: an axis that separates by more serves rather than one that separates by this. One that proves that the two do not
+/// touch does in any case: what goes past an edge comes through the plane of the face beside it.
+double beaten_by(double separation) {
+  const double flickers = separation + kFaceFirst;
+  return separation > 0 ? flickers : std::min(flickers, kTouchDistance);
+}
+
 /// All in the first's frame.
 struct Pair {
   const Polyhedron &first, &second;
@@ -151,7 +158,7 @@ void keep_edges(const Polyhedron& of, const std::vector<double>& along, double r
 }
 
 void try_edges(const Pair& pair, Found& best, double margin, Room& work) {
-  const double least = best.separation + kFaceFirst;
+  const double least = beaten_by(best.separation);
   keep_edges(pair.first, work.first_faces, pair.second.inner, least, work.first_edges);
   if (work.first_edges.empty()) return;
   keep_edges(pair.second, work.second_faces, pair.first.inner, least, work.second_edges);
@@ -167,7 +174,7 @@ void try_edges(const Pair& pair, Found& best, double margin, Room& work) {
                             other.dot(pair.first.faces[static_cast<std::size_t>(a.right)].normal)))
         continue;
       const double now = pair.edges(i, j);
-      if (now <= best.separation + kFaceFirst) continue;
+      if (now <= beaten_by(best.separation)) continue;
       best.separation = now;
       best.axis = {SeparatingAxis::Kind::edges, i, j, 0};
       if (now > margin) return;
@@ -199,12 +206,13 @@ Found search(const Pair& pair, double margin, const SeparatingAxis& last, Room& 
       static_cast<int>(pair.second.faces.size()), SeparatingAxis::Kind::second_face,
       [&](int f) { return pair.second_face(f); }, most(pair.second, work.second_faces, pair.first.inner), second,
       margin);
-  if (second.separation > best.separation + kFaceFirst) best = second;
+  if (second.separation > beaten_by(best.separation)) best = second;
   if (best.separation > margin) return best;
   if (best.separation < known) best = {known, last};
   try_edges(pair, best, margin, work);
   if (best.separation > margin || last.kind == SeparatingAxis::Kind::none) return best;
-  if (last.gap >= best.separation - kLastFirst) best = {last.gap, last};
+  const bool parted = last.gap <= 0 && best.separation > kTouchDistance;
+  if (!parted && last.gap >= best.separation - kLastFirst) best = {last.gap, last};
   return best;
 }
 

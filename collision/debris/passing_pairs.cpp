@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "contacts/apart.h"
 #include "debris/motion_ahead.h"
 
 namespace topple::collision {
@@ -31,8 +32,23 @@ Foreseen foresee(const DebrisScene& scene, const PairEnds& ends, const Manifold&
   // Spins change within the step, by less than their squares.
   const double turned =
       made.first.angular_velocity.length2() * one.reach + made.second.angular_velocity.length2() * other.reach;
-  made.clear = scene.settings.touching + dt * dt / 2 * turned;
+  made.clear = std::min(scene.settings.touching, manifold.nearest()) + dt * dt / 2 * turned;
   return made;
+}
+
+MovingPart part_ahead(const DebrisScene& scene, std::uint32_t collider, const Motion& motion, double dt) {
+  const Collider& one = scene.pairs.collider(collider);
+  const btTransform end = motion.at(dt);
+  return {static_cast<const TouchingSolid&>(*one.solid),
+          static_cast<std::size_t>(one.part),
+          motion,
+          {from_bullet(end.getOrigin()), from_bullet(end.getBasis())}};
+}
+
+/// As the sweep has it.
+bool they_touch(const MovingPart& first, const MovingPart& second, double dt) {
+  return meeting_of(first, second, dt, 0) == Meeting::unknown &&
+         touches(first.solid.parts[first.part], first.motion, second.solid.parts[second.part], second.motion, dt);
 }
 
 }  // namespace
@@ -41,9 +57,10 @@ bool may_push(const DebrisScene& scene, std::uint32_t pair, double dt) {
   const PairEnds& ends = scene.pairs.ends(pair);
   if (!ends.touches || ends.second == NearPairs::ground) return false;
   const Manifold& manifold = scene.pairs.pair(pair).manifold;
-  const double nearest = manifold.nearest(), touching = scene.settings.touching,
+  const double nearest = manifold.nearest(),
                way = scene.pairs.collider(ends.first).way + scene.pairs.collider(ends.second).way;
-  if (nearest <= touching || nearest - way >= touching) return false;
+  const double touching = scene.settings.touching;
+  if (nearest <= 0 || (nearest <= touching && manifold.bears()) || nearest - way >= touching) return false;
   const Foreseen then = foresee(scene, ends, manifold, dt);
   return then.least < then.clear;
 }
@@ -51,12 +68,9 @@ bool may_push(const DebrisScene& scene, std::uint32_t pair, double dt) {
 void clear_if_passing(DebrisScene& scene, std::uint32_t pair, double dt) {
   const PairEnds& ends = scene.pairs.ends(pair);
   Manifold& manifold = scene.pairs.pair(pair).manifold;
-  const auto part_of = [&](std::uint32_t collider) -> const SolidPart& {
-    const Collider& one = scene.pairs.collider(collider);
-    return one.solid->parts[static_cast<std::size_t>(one.part)];
-  };
   const Foreseen then = foresee(scene, ends, manifold, dt);
-  if (first_touch(part_of(ends.first), then.first, part_of(ends.second), then.second, dt)) return;
+  if (they_touch(part_ahead(scene, ends.first, then.first, dt), part_ahead(scene, ends.second, then.second, dt), dt))
+    return;
   for (int i = 0; i < manifold.count; ++i)
     manifold.points[static_cast<std::size_t>(i)].separation += then.clear - then.least;
 }
