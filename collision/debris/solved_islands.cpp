@@ -61,7 +61,8 @@ SolverContact SolvedIslands::solver_contact(std::uint32_t index) const {
   struct Side {
     int number = 0;
     double friction = 0, restitution = 0;
-    bool asleep = false, ball = false;
+    bool asleep = false;
+    double ball_radius = 0;
   };
   const auto side = [&](const Solid& solid) -> Side {
     if (solid.kind == Touched::Kind::ground) return {0, scene_.ground.friction, scene_.ground.restitution};
@@ -70,7 +71,7 @@ SolverContact SolvedIslands::solver_contact(std::uint32_t index) const {
       return {one.moves ? std::max(0, one.solver) : 0, one.friction, one.restitution};
     }
     const auto& one = static_cast<const DebrisBody&>(solid);
-    return {one.asleep ? 0 : one.solver, one.friction, one.restitution, one.asleep, one.ball_radius > 0};
+    return {one.asleep ? 0 : one.solver, one.friction, one.restitution, one.asleep, one.ball_radius};
   };
   const PairEnds& ends = scene_.pairs.ends(index);
   const Solid &first = *scene_.pairs.collider(ends.first).solid, &second = *scene_.pairs.collider(ends.second).solid;
@@ -84,8 +85,9 @@ SolverContact SolvedIslands::solver_contact(std::uint32_t index) const {
   contact.friction = std::sqrt(a.friction * b.friction);
   contact.restitution = std::sqrt(a.restitution * b.restitution);
   contact.held = ends.rests && a.asleep != b.asleep;
-  contact.first_ball = a.ball;
-  contact.second_ball = b.ball;
+  contact.first_ball = a.ball_radius > 0;
+  contact.second_ball = b.ball_radius > 0;
+  contact.rolling = scene_.settings.rolling_resistance * std::max(a.ball_radius, b.ball_radius);
   contact.points = contact.pair->manifold.count;
   contact.corners_on_second = contact.pair->manifold.normal_on_first;
   return contact;

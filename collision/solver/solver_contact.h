@@ -13,6 +13,7 @@ struct SolverContact {
   double friction = 0, restitution = 0;
   bool held = false;  ///< one of the two sleeps since it came to rest on the other, which is awake
   bool first_ball = false, second_ball = false;
+  double rolling = 0;             ///< m: so far from its middle the force on a ball may act that does not roll
   int points = 0;                 ///< of the pair's manifold
   bool corners_on_second = true;  ///< they are the second's, on faces of the first
   // Where it lies in the packs.

@@ -24,6 +24,25 @@ Eigen::Matrix<double, 1, 6> row(const SolverBody& body, const Vec3& place, const
 
 }  // namespace
 
+/// Where normal forces may act. A ball does not roll while its force is no farther from its middle than soil gives way
+/// before it: corners of a square that far out.
+std::vector<StepSolver::RestPoint> StepSolver::rest_points(const SolverContact& contact) const {
+  const Manifold& manifold = contact.pair->manifold;
+  std::vector<RestPoint> made;
+  for (int i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
+    if (bears_at_rest(point)) made.push_back({contact.places[static_cast<std::size_t>(i)], point.force, i});
+  }
+  if (!(contact.rolling > 0) || made.size() != 1) return made;
+  const RestPoint middle = made.front();
+  const std::array<Vec3, 3> along = directions(manifold.normal);
+  made.clear();
+  for (const Vec3& out : {along[1], along[2]})
+    for (const double way : {contact.rolling, -contact.rolling})
+      made.push_back({middle.place + way * out, middle.start / 4, middle.point});
+  return made;
+}
+
 void StepSolver::add_to(Equilibrium& equilibrium, const SolverContact& contact) const {
   const SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
                    &second = bodies_[static_cast<std::size_t>(contact.second)];
@@ -33,15 +52,12 @@ void StepSolver::add_to(Equilibrium& equilibrium, const SolverContact& contact) 
   made.first = contact.first;
   made.second = contact.second;
   made.friction = contact.friction;
-  for (int i = 0; i < manifold.count; ++i) {
-    const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
-    if (!bears_at_rest(point)) continue;
-    const Vec3& place = contact.places[static_cast<std::size_t>(i)];
-    made.on_first.row(made.count) = row(first, place, along[0]);
-    made.on_second.row(made.count) = row(second, place, along[0]);
+  for (const RestPoint& point : rest_points(contact)) {
+    made.on_first.row(made.count) = row(first, point.place, along[0]);
+    made.on_second.row(made.count) = row(second, point.place, along[0]);
     made.stiffness[made.count] =
         1 / (made.on_first.row(made.count).squaredNorm() + made.on_second.row(made.count).squaredNorm());
-    made.start[made.count] = point.force;
+    made.start[made.count] = point.start;
     ++made.count;
   }
   for (int i = 0; i < 2; ++i) {
@@ -97,12 +113,17 @@ void StepSolver::store_rest(const RestContact& found, SolverContact& contact, do
   const std::array<Vec3, 3> along = directions(manifold.normal);
   double pressed = 0;
   Vec3 middle = Vec3::Zero();
-  int k = 0;
+  const std::vector<RestPoint> points = rest_points(contact);
+  for (int i = 0; i < manifold.count; ++i) manifold.points[static_cast<std::size_t>(i)].force = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double force = found.force[static_cast<Eigen::Index>(k)];
+    manifold.points[static_cast<std::size_t>(points[k].point)].force += force;
+    pressed += force;
+    middle += force * points[k].place;
+  }
   for (int i = 0; i < manifold.count; ++i) {
     ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
-    point.impulse = point.force = bears_at_rest(point) ? found.force[k++] : 0;
-    pressed += point.force;
-    middle += point.force * contact.places[static_cast<std::size_t>(i)];
+    point.impulse = point.force;
   }
   manifold.friction = manifold.friction_force = found.force[4] * along[1] + found.force[5] * along[2];
   manifold.twist = manifold.twist_force = found.force[6] * contact.lever;

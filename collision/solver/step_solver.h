@@ -83,6 +83,12 @@ class StepSolver {
   void relax(SubStep step);
   void move(SubStep step);
   void repeat(ContactKernels::Pass pass, SubStep step, std::vector<Motion6>& velocity, int fewest);
+  struct RestPoint {
+    Vec3 place;
+    double start = 0;  ///< N: the normal force that the step ended with
+    int point = 0;     ///< of the manifold
+  };
+  [[nodiscard]] std::vector<RestPoint> rest_points(const SolverContact& contact) const;
   void add_to(Equilibrium& equilibrium, const SolverContact& contact) const;
   void store_rest(const RestContact& found, SolverContact& contact, double dt) const;
   /// Only what touches may bear.

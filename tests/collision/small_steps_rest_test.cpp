@@ -184,3 +184,33 @@ TEST_CASE("small steps: a stone stays on its base, though corners beside it are 
   run(*world, 60);
   CHECK(world->state(id).asleep);
 }
+
+namespace {
+
+/// A ball on ground that slopes so steeply, 5 s after it was put there.
+struct BallOnSlope {
+  explicit BallOnSlope(double slope) {
+    const double angle = std::atan(slope);
+    world->set_gravity(kGravity * Vec3(std::sin(angle), 0, -std::cos(angle)));
+    world->set_ground(0, 0.6, 0);
+    BodyDescription one = ball_body(0.5, 4000, {0, 0, 0.5});
+    one.friction = 0.6;
+    ball = world->add_body(one);
+    run(*world, 300);
+  }
+  std::unique_ptr<World> world = make_small_steps_world();
+  BodyId ball;
+};
+
+}  // namespace
+
+TEST_CASE("a ball comes to rest on a gentle slope, held by its resistance to rolling, and rolls down a steep one") {
+  BallOnSlope gentle(0.04);
+  CHECK(gentle.world->state(gentle.ball).asleep);
+  CHECK(gentle.world->state(gentle.ball).pose.position.x() < 0.01);
+  BallOnSlope steep(0.2);
+  CHECK_FALSE(steep.world->state(steep.ball).asleep);
+  // 7/5 a = g (sin - 0.1 cos), for 5 s.
+  const double way = kGravity * (0.2 - 0.1) / std::sqrt(1 + 0.2 * 0.2) / 1.4 * 5 * 5 / 2;
+  CHECK(steep.world->state(steep.ball).pose.position.x() == Approx(way).epsilon(0.05));
+}
