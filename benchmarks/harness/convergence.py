@@ -152,6 +152,13 @@ def pairs(finer, scenario, found, samples, key):
     return [(a[key], b[key]) for a, b in both if a.get(key) is not None and b.get(key) is not None]
 
 
+def collapses(finer, scenario, members, found, samples):
+    """When half was down, of the inputs with which more than half of the members come down in both: else the share of those that
+    do would be in it a second time."""
+    both = [(found[(scenario, finer.coarse, k)], found[(scenario, finer.fine, k)]) for k in range(samples)]
+    return [(a["half"], b["half"]) for a, b in both if 2 * min(a.get("down", 0), b.get("down", 0)) > members]
+
+
 def as_told(finer, time):
     """s: events carry the time at which their step begins. Of what happens at one instant, longer steps tell an earlier time."""
     return math.floor(time * finer.coarse + 1e-6) / finer.coarse if finer is STEPS else time
@@ -162,7 +169,7 @@ def judge(context, finer, names, members, found, counts, draw):
     lines, groups = [], []
     for scenario in names:
         shares = [(a - b) / members[scenario] for a, b in pairs(finer, scenario, found, counts[scenario], "down")]
-        times = [(a, as_told(finer, b)) for a, b in pairs(finer, scenario, found, counts[scenario], "half")]
+        times = [(a, as_told(finer, b)) for a, b in collapses(finer, scenario, members[scenario], found, counts[scenario])]
         if not shares:
             context.broken.append("%s: no run to compare" % scenario)
             continue

@@ -264,12 +264,12 @@ class Labels(unittest.TestCase):
 
 
 class Convergence(unittest.TestCase):
-    def judged(self, later):
+    def judged(self, later, down=8):
         """Half of it is down at the same instants, or so much later in the finer steps, told as the step's beginning."""
         found = {}
         for k in range(40):
             for rate, shift in ((60, 0.0), (240, later)):
-                found["house", rate, k] = {"down": 3, "half": math.floor((1.31 + 0.0071 * k + shift) * rate) / rate}
+                found["house", rate, k] = {"down": down, "half": math.floor((1.31 + 0.0071 * k + shift) * rate) / rate}
         one = types.SimpleNamespace(broken=[])
         lines = convergence.judge(one, convergence.STEPS, ["house"], {"house": 10}, found, {"house": 40}, random.Random(1))
         self.assertEqual(one.broken, [])
@@ -278,6 +278,9 @@ class Convergence(unittest.TestCase):
     def test_times_are_compared_as_the_longer_steps_tell_them(self):
         self.assertIn("p = 1.000", self.judged(0.0))
         self.assertIn("MISSED", self.judged(0.02))
+
+    def test_times_are_those_of_collapses(self):
+        self.assertIn("p = 1.000", self.judged(0.02, down=5))
 
 
 class Constants(unittest.TestCase):
