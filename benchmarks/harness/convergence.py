@@ -147,16 +147,19 @@ def rows_of(scenario, members, found, values, samples):
     return rows
 
 
-def pairs(finer, scenario, found, samples, key):
-    both = [(found[(scenario, finer.coarse, k)], found[(scenario, finer.fine, k)]) for k in range(samples)]
-    return [(a[key], b[key]) for a, b in both if a.get(key) is not None and b.get(key) is not None]
+def both_runs(finer, scenario, found, samples):
+    """Of each input, the two runs that are compared."""
+    return [(found[(scenario, finer.coarse, k)], found[(scenario, finer.fine, k)]) for k in range(samples)]
+
+
+def members_down(finer, scenario, found, samples):
+    return [(a["down"], b["down"]) for a, b in both_runs(finer, scenario, found, samples) if "down" in a and "down" in b]
 
 
 def collapses(finer, scenario, members, found, samples):
     """When half was down, of the inputs with which more than half of the members come down in both: else the share of those that
     do would be in it a second time."""
-    both = [(found[(scenario, finer.coarse, k)], found[(scenario, finer.fine, k)]) for k in range(samples)]
-    return [(a["half"], b["half"]) for a, b in both if 2 * min(a.get("down", 0), b.get("down", 0)) > members]
+    return [(a["half"], b["half"]) for a, b in both_runs(finer, scenario, found, samples) if 2 * min(a.get("down", 0), b.get("down", 0)) > members]
 
 
 def as_told(finer, time):
@@ -168,7 +171,7 @@ def judge(context, finer, names, members, found, counts, draw):
     """What is asked of every scenario, in words; what is not as it must be goes to context.broken."""
     lines, groups = [], []
     for scenario in names:
-        shares = [(a - b) / members[scenario] for a, b in pairs(finer, scenario, found, counts[scenario], "down")]
+        shares = [(a - b) / members[scenario] for a, b in members_down(finer, scenario, found, counts[scenario])]
         times = [(a, as_told(finer, b)) for a, b in collapses(finer, scenario, members[scenario], found, counts[scenario])]
         if not shares:
             context.broken.append("%s: no run to compare" % scenario)

@@ -26,8 +26,6 @@ std::vector<SweptPart> swept_parts(const Solid& solid, const Motion& motion, dou
   return all;
 }
 
-Placement placement_of(const btTransform& at) { return {from_bullet(at.getOrigin()), from_bullet(at.getBasis())}; }
-
 Box3 box_of(const Bounds& bounds) { return {from_bullet(bounds.low), from_bullet(bounds.high)}; }
 
 struct Mover {

@@ -4,10 +4,7 @@
 
 namespace topple::collision {
 
-Placement DebrisObstacle::placement() const {
-  const btTransform placed = to_bullet(pose) * frame;
-  return {from_bullet(placed.getOrigin()), from_bullet(placed.getBasis())};
-}
+Placement DebrisObstacle::placement() const { return placement_of(to_bullet(pose) * frame); }
 
 const DebrisObstacle* moving_obstacle(const NearPairs& pairs, const PairEnds& ends) {
   const Solid* const second = pairs.collider(ends.second).solid;

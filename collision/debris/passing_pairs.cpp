@@ -38,11 +38,8 @@ Foreseen foresee(const DebrisScene& scene, const PairEnds& ends, const Manifold&
 
 MovingPart part_ahead(const DebrisScene& scene, std::uint32_t collider, const Motion& motion, double dt) {
   const Collider& one = scene.pairs.collider(collider);
-  const btTransform end = motion.at(dt);
-  return {static_cast<const TouchingSolid&>(*one.solid),
-          static_cast<std::size_t>(one.part),
-          motion,
-          {from_bullet(end.getOrigin()), from_bullet(end.getBasis())}};
+  return {static_cast<const TouchingSolid&>(*one.solid), static_cast<std::size_t>(one.part), motion,
+          placement_of(motion.at(dt))};
 }
 
 /// As the sweep has it.

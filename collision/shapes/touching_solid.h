@@ -28,6 +28,10 @@ struct TouchingSolid : Solid {
   }
 };
 
+[[nodiscard]] inline Placement placement_of(const btTransform& at) {
+  return {from_bullet(at.getOrigin()), from_bullet(at.getBasis())};
+}
+
 /// From the parts of the solid (make_parts).
 void make_shapes(TouchingSolid& solid);
 
