@@ -13,22 +13,6 @@
 namespace topple::solver {
 namespace {
 
-/// N numbers side by side, one for each column; in memory aligned to their size.
-template <int N>
-struct Lanes;
-template <>
-struct Lanes<1> {
-  using Type = double;
-};
-template <>
-struct Lanes<4> {
-  typedef double Type __attribute__((vector_size(32), may_alias));
-};
-template <>
-struct Lanes<8> {
-  typedef double Type __attribute__((vector_size(64), may_alias));
-};
-
 /// A number as the sum of two of half its digits, whose products are exact.
 template <class Number>
 struct Halves {
@@ -52,7 +36,7 @@ template <class Number>
   const Number total = value - product, taken = total - value;
   lost += ((value - (total - taken)) - (product + taken)) - error;
   value = total;
-  size += product < 0 ? -product : product;
+  add_magnitude(product, size);
 }
 
 /// The rows of the matrix: what lies left of the diagonal, and the stored rest.
@@ -65,32 +49,38 @@ struct ResidualRows {
   const std::int32_t* left_column;
 };
 
-/// x: N numbers a row. sums: of each row the value, what its last digit lost, and the size, N numbers each.
-template <int N>
+/// x: as many numbers a row as there are lanes, one for each column. sums: of each row the value, what its last digit
+/// lost, and the size, so many numbers each.
+template <class Lanes>
 [[gnu::always_inline]] inline void subtract_row_products(const ResidualRows& K, const double* x, double* sums) {
-  using Number = typename Lanes<N>::Type;
+  constexpr int N = Lanes::count;
+  using Number = typename Lanes::Vector;
   for (std::int32_t i = 0; i < K.size; ++i) {
-    auto* sum = reinterpret_cast<Number*>(sums + std::ptrdiff_t{3 * N} * i);
-    Number value = sum[0], lost = sum[1], size = sum[2];
+    double* sum = sums + std::ptrdiff_t{3 * N} * i;
+    Number value = lanes_at<Lanes>(sum), lost = lanes_at<Lanes>(sum + N), size = lanes_at<Lanes>(sum + 2 * N);
     const auto take_off = [&](double entry, std::int32_t column) __attribute__((always_inline)) {
-      const Number other = *reinterpret_cast<const Number*>(x + std::ptrdiff_t{N} * column);
+      const Number other = lanes_at<Lanes>(x + std::ptrdiff_t{N} * column);
       subtract(value, lost, size, entry, other);
     };
     for (std::int64_t k = K.left_start[i]; k < K.left_start[i + 1]; ++k)
       take_off(K.value[K.left_place[k]], K.left_column[k]);
     for (std::int64_t k = K.start[i]; k < K.start[i + 1]; ++k) take_off(K.value[k], K.row[k]);
-    sum[0] = value;
-    sum[1] = lost;
-    sum[2] = size;
+    lanes_at<Lanes>(sum) = value;
+    lanes_at<Lanes>(sum + N) = lost;
+    lanes_at<Lanes>(sum + 2 * N) = size;
   }
 }
 
 TOPPLE_VECTOR_VERSIONS
-void subtract_products_1(const ResidualRows& K, const double* x, double* sums) { subtract_row_products<1>(K, x, sums); }
+void subtract_products_1(const ResidualRows& K, const double* x, double* sums) {
+  subtract_row_products<OneLane>(K, x, sums);
+}
 TOPPLE_VECTOR_VERSIONS
-void subtract_products_4(const ResidualRows& K, const double* x, double* sums) { subtract_row_products<4>(K, x, sums); }
-TOPPLE_VECTOR_VERSIONS
-void subtract_products_8(const ResidualRows& K, const double* x, double* sums) { subtract_row_products<8>(K, x, sums); }
+void subtract_products_4(const ResidualRows& K, const double* x, double* sums) {
+  subtract_row_products<FourLanes>(K, x, sums);
+}
+TOPPLE_EIGHT_LANES(void subtract_products_8(const ResidualRows& K, const double* x, double* sums),
+                   subtract_row_products<Eight>(K, x, sums);)
 
 }  // namespace
 
@@ -147,9 +137,13 @@ void ExtendedResidual::columns(Eigen::Index first, Eigen::Index count, const Eig
   own.topRows(count) = x.middleCols(first, count).transpose();
   sums.topRows(count) = b.middleCols(first, count).transpose();
   sums.middleRows(2 * lanes, count) = sums.topRows(count).cwiseAbs();
-  (lanes == 1   ? subtract_products_1
-   : lanes == 4 ? subtract_products_4
-                : subtract_products_8)(rows, own.data(), sums.data());
+  if (lanes == 1) {
+    subtract_products_1(rows, own.data(), sums.data());
+  } else if (lanes == 4) {
+    subtract_products_4(rows, own.data(), sums.data());
+  } else {
+    subtract_products_8(rows, own.data(), sums.data());
+  }
   for (Eigen::Index c = 0; c < count; ++c) {
     const double largest = n > 0 ? x.col(first + c).cwiseAbs().maxCoeff() : 0;
     double worst = 0;

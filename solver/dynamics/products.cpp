@@ -27,24 +27,29 @@ template void multiply<1>(const SparseSymmetric&, const SideBySide<1>&, SideBySi
 
 namespace {
 
+/// Four numbers at a time: a processor with vectors of eight has them of four as well.
 TOPPLE_VECTOR_VERSIONS void add_products(const SparseSymmetric& A, const SparseSymmetric& B, const double* X,
                                          double* Y) {
-  using Vector = EightLanes::Vector;
+  using Vector = FourLanes::Vector;
   const std::int64_t* start = A.start.data();
   const std::int32_t* row = A.row.data();
   const double *a = A.value.data(), *b = B.value.data();
   for (std::int32_t c = 0; c < A.size; ++c) {
     std::int64_t k = start[c];
-    const Vector at = lanes_at<EightLanes>(X + 8 * std::ptrdiff_t{c});
-    const Vector diagonal = {a[k], a[k], a[k], a[k], b[k], b[k], b[k], b[k]};
-    Vector sum = diagonal * at;
+    const double* at = X + 8 * std::ptrdiff_t{c};
+    const Vector by_a = lanes_at<FourLanes>(at), by_b = lanes_at<FourLanes>(at + 4);
+    Vector sum_a = a[k] * by_a, sum_b = b[k] * by_b;
     for (++k; k < start[c + 1]; ++k) {
-      const std::ptrdiff_t place = 8 * std::ptrdiff_t{row[k]};
-      const Vector value = {a[k], a[k], a[k], a[k], b[k], b[k], b[k], b[k]};
-      sum += value * lanes_at<EightLanes>(X + place);
-      lanes_at<EightLanes>(Y + place) += value * at;
+      const double* from = X + 8 * std::ptrdiff_t{row[k]};
+      double* to = Y + 8 * std::ptrdiff_t{row[k]};
+      sum_a += a[k] * lanes_at<FourLanes>(from);
+      sum_b += b[k] * lanes_at<FourLanes>(from + 4);
+      lanes_at<FourLanes>(to) += a[k] * by_a;
+      lanes_at<FourLanes>(to + 4) += b[k] * by_b;
     }
-    lanes_at<EightLanes>(Y + 8 * std::ptrdiff_t{c}) += sum;
+    double* own = Y + 8 * std::ptrdiff_t{c};
+    lanes_at<FourLanes>(own) += sum_a;
+    lanes_at<FourLanes>(own + 4) += sum_b;
   }
 }
 

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 
 #include "factor/vector_versions.h"
 
 namespace topple::solver {
 namespace {
 
-constexpr int panel_strip = 8, strip_rows = EightLanes::count, most_together = 4;
+constexpr int panel_strip = 8, strip_rows = 8, most_together = 4;
 
 /// Of the eight parts of a sum.
 [[gnu::always_inline]] inline double total(const double* p) {
@@ -25,23 +26,26 @@ template <class Lanes, int K, int N>
           lanes_at<Lanes>(L + k * ld) * lanes_at<Lanes>(b + c * stride);
 }
 
+/// Columns at a time of a whole strip, with N right-hand sides: as many as leave registers for the sums.
+template <class Eight, int N>
+inline constexpr int most_columns = std::is_same_v<Eight, EightLanes> ? (N <= 2 ? 8 : 4)
+                                                                      : (N == 1   ? 4
+                                                                         : N == 2 ? 2
+                                                                                  : 1);
+
 /// sum[k * N + c] := the product of column k of L and column c of b, k < K, c < N.
-template <int K, int N>
+template <class Eight, int K, int N>
 [[gnu::always_inline]] inline void multiply_columns(const double* L, std::ptrdiff_t ld, const double* b,
                                                     std::ptrdiff_t stride, int rows, double* sum) {
-  EightLanes::Vector part[K * N];
-  TOPPLE_UNROLLED
-  for (int p = 0; p < K * N; ++p) part[p] = EightLanes::Vector{};
+  typename Eight::Vector part[K * N] = {};
   int i = 0;
-  // One loop over all sums: the compiler unrolls no loop of loops before it gives arrays registers.
-  for (; i + strip_rows <= rows; i += strip_rows) {
-    TOPPLE_UNROLLED
-    for (int p = 0; p < K * N; ++p)
-      part[p] += lanes_at<EightLanes>(L + p / N * ld + i) * lanes_at<EightLanes>(b + p % N * stride + i);
-  }
+  for (; i + strip_rows <= rows; i += strip_rows)
+    each_constant<K * N>([&](auto p) __attribute__((always_inline)) {
+      part[p] += lanes_at<Eight>(L + p / N * ld + i) * lanes_at<Eight>(b + p % N * stride + i);
+    });
   double parts[K * N * strip_rows];
-  TOPPLE_UNROLLED
-  for (int p = 0; p < K * N; ++p) lanes_at<EightLanes>(parts + p * strip_rows) = part[p];
+  each_constant<K * N>([&](auto p)
+                           __attribute__((always_inline)) { lanes_at<Eight>(parts + p * strip_rows) = part[p]; });
   if (rows - i >= FourLanes::count) {
     add_tail<FourLanes, K, N>(L + i, ld, b + i, stride, parts);
     i += FourLanes::count;
@@ -56,34 +60,32 @@ template <int K, int N>
 }
 
 /// sum[k * N + c] of `width` (at most 8) columns of L; as many at a time as leave registers for the sums.
-template <int N>
+template <class Eight, int N>
 [[gnu::always_inline]] inline void products(const double* L, std::ptrdiff_t ld, int width, const double* b,
                                             std::ptrdiff_t stride, int rows, double* sum) {
   if (width == panel_strip) {
-    constexpr int group = N <= 2 ? 8 : 4;
+    constexpr int group = most_columns<Eight, N>;
     for (int k = 0; k < panel_strip; k += group)
-      multiply_columns<group, N>(L + k * ld, ld, b, stride, rows, sum + k * N);
+      multiply_columns<Eight, group, N>(L + k * ld, ld, b, stride, rows, sum + k * N);
     return;
   }
   int k = 0;
   if (width >= 4) {
-    multiply_columns<4, N>(L, ld, b, stride, rows, sum);
+    multiply_columns<Eight, 4, N>(L, ld, b, stride, rows, sum);
     k = 4;
   }
   if (width - k >= 2) {
-    multiply_columns<2, N>(L + k * ld, ld, b, stride, rows, sum + k * N);
+    multiply_columns<Eight, 2, N>(L + k * ld, ld, b, stride, rows, sum + k * N);
     k += 2;
   }
-  if (k < width) multiply_columns<1, N>(L + k * ld, ld, b, stride, rows, sum + k * N);
+  if (k < width) multiply_columns<Eight, 1, N>(L + k * ld, ld, b, stride, rows, sum + k * N);
 }
 
 using Products = void (*)(const double*, std::ptrdiff_t, int, const double*, std::ptrdiff_t, int, double*);
-#define TOPPLE_PRODUCTS(N)                                                                                           \
-  TOPPLE_VECTOR_VERSIONS                                                                                             \
-  void products_##N(const double* L, std::ptrdiff_t ld, int width, const double* b, std::ptrdiff_t stride, int rows, \
-                    double* sum) {                                                                                   \
-    products<N>(L, ld, width, b, stride, rows, sum);                                                                 \
-  }
+#define TOPPLE_PRODUCTS(N)                                                                             \
+  TOPPLE_EIGHT_LANES(void products_##N(const double* L, std::ptrdiff_t ld, int width, const double* b, \
+                                       std::ptrdiff_t stride, int rows, double* sum),                  \
+                     products<Eight, N>(L, ld, width, b, stride, rows, sum);)
 TOPPLE_PRODUCTS(1)
 TOPPLE_PRODUCTS(2)
 TOPPLE_PRODUCTS(3)

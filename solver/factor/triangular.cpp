@@ -45,34 +45,36 @@ void forward_block(const Block& b, double* x, int count, double* below) {
            &below_rows);
 }
 
+template <class Eight>
 [[gnu::always_inline]] inline void subtract(const double* from, const RowsInLine& run, double* to) {
-  each_lanes(
+  each_lanes<Eight>(
       run.count, [&]([[maybe_unused]] auto lanes, int i) __attribute__((always_inline)) {
         lanes_at<decltype(lanes)>(to + i) -= lanes_at<decltype(lanes)>(from + run.from + i);
       });
 }
 
-/// compact := the runs' rows of y.
-TOPPLE_VECTOR_VERSIONS
-void gather_rows(std::span<const RowsInLine> runs, const double* y, double* compact) {
-  for (const RowsInLine& run : runs)
-    each_lanes(
-        run.count, [&]([[maybe_unused]] auto lanes, int i) __attribute__((always_inline)) {
-          lanes_at<decltype(lanes)>(compact + run.from + i) = lanes_at<decltype(lanes)>(y + run.row + i);
-        });
+template <class Eight>
+[[gnu::always_inline]] inline void gather(const double* from, const RowsInLine& run, double* to) {
+  each_lanes<Eight>(
+      run.count, [&]([[maybe_unused]] auto lanes, int i) __attribute__((always_inline)) {
+        lanes_at<decltype(lanes)>(to + run.from + i) = lanes_at<decltype(lanes)>(from + run.row + i);
+      });
 }
+
+/// compact := the runs' rows of y.
+TOPPLE_EIGHT_LANES(void gather_rows(std::span<const RowsInLine> runs, const double* y, double* compact),
+                   for (const RowsInLine& run
+                        : runs) gather<Eight>(y, run, compact);)
 
 /// The runs' rows of y -= compact.
-TOPPLE_VECTOR_VERSIONS
-void subtract_rows(std::span<const RowsInLine> runs, const double* compact, double* y) {
-  for (const RowsInLine& run : runs) subtract(compact, run, y + run.row);
-}
+TOPPLE_EIGHT_LANES(void subtract_rows(std::span<const RowsInLine> runs, const double* compact, double* y),
+                   for (const RowsInLine& run
+                        : runs) subtract<Eight>(compact, run, y + run.row);)
 
 /// The same on a path that ends there.
-TOPPLE_VECTOR_VERSIONS
-void subtract_rows_from_end(std::span<const RowsInLine> runs, const double* compact, double* end) {
-  for (const RowsInLine& run : runs) subtract(compact, run, end - run.from_end);
-}
+TOPPLE_EIGHT_LANES(void subtract_rows_from_end(std::span<const RowsInLine> runs, const double* compact, double* end),
+                   for (const RowsInLine& run
+                        : runs) subtract<Eight>(compact, run, end - run.from_end);)
 
 }  // namespace
 
