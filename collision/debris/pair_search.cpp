@@ -107,15 +107,11 @@ void PairSearch::seek(std::uint32_t index) {
 /// Each pair by itself. Few of those that are near are due.
 void PairSearch::seek_contacts(double dt) {
   choose([&](const PairEnds& ends) { return is_due(ends); }, due_);
-  chosen_.resize(due_.size());
   region_.each(due_.size(), kDuePairs, [&](std::size_t i) {
     if (i + kAhead < due_.size()) prefetch_lines(scene_.pairs.pair(due_[i + kAhead]));
     seek(due_[i]);
-    chosen_[i] = may_push(scene_, due_[i], dt) ? 1 : 0;
+    clear_if_passing(scene_, due_[i], dt);
   });
-  // These are few. They are one after the other: the search for a touch is Bullet's, which promises nothing of threads.
-  for (std::size_t i = 0; i < due_.size(); ++i)
-    if (chosen_[i] != 0) clear_if_passing(scene_, due_[i], dt);
 }
 
 void PairSearch::find_touching() {

@@ -48,24 +48,22 @@ bool they_touch(const MovingPart& first, const MovingPart& second, double dt) {
          touches(first.solid.parts[first.part], first.motion, second.solid.parts[second.part], second.motion, dt);
 }
 
-}  // namespace
-
-bool may_push(const DebrisScene& scene, std::uint32_t pair, double dt) {
-  const PairEnds& ends = scene.pairs.ends(pair);
+/// The least that they could come to is asked first: few pairs are worth more.
+bool may_come_to_push(const DebrisScene& scene, const PairEnds& ends, const Manifold& manifold) {
   if (!ends.touches || ends.second == NearPairs::ground) return false;
-  const Manifold& manifold = scene.pairs.pair(pair).manifold;
-  const double nearest = manifold.nearest(),
+  const double nearest = manifold.nearest(), touching = scene.settings.touching,
                way = scene.pairs.collider(ends.first).way + scene.pairs.collider(ends.second).way;
-  const double touching = scene.settings.touching;
-  if (nearest <= 0 || (nearest <= touching && manifold.bears()) || nearest - way >= touching) return false;
-  const Foreseen then = foresee(scene, ends, manifold, dt);
-  return then.least < then.clear;
+  return nearest > 0 && !(nearest <= touching && manifold.bears()) && nearest - way < touching;
 }
+
+}  // namespace
 
 void clear_if_passing(DebrisScene& scene, std::uint32_t pair, double dt) {
   const PairEnds& ends = scene.pairs.ends(pair);
   Manifold& manifold = scene.pairs.pair(pair).manifold;
+  if (!may_come_to_push(scene, ends, manifold)) return;
   const Foreseen then = foresee(scene, ends, manifold, dt);
+  if (!(then.least < then.clear)) return;
   if (they_touch(part_ahead(scene, ends.first, then.first, dt), part_ahead(scene, ends.second, then.second, dt), dt))
     return;
   for (int i = 0; i < manifold.count; ++i)

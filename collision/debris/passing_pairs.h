@@ -8,10 +8,10 @@
 
 namespace topple::collision {
 
-/// Whether the pair's contacts would push within `dt`, as the two move, though they do not touch yet.
-[[nodiscard]] bool may_push(const DebrisScene& scene, std::uint32_t pair, double dt);
-/// For a pair that may_push(): unless the two do touch on their paths, its points lie so far apart that they do not
-/// push. What changes the paths within the step is held up by them all the same.
+/// Where a pair's contacts would push within `dt`, as the two move, though they do not touch yet: unless the two do
+/// touch on their paths, its points lie so far apart that they do not push. What changes the paths within the step is
+/// held up by them all the same. Changes nothing but that pair. The search for a touch is Bullet's, of objects of its
+/// own, as Bullet's dispatcher for several threads has it.
 void clear_if_passing(DebrisScene& scene, std::uint32_t pair, double dt);
 
 }  // namespace topple::collision
