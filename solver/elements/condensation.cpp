@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "factor/multiple_right_hand_sides.h"
 #include "parallel/one_blas_thread.h"
-
-extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
-                       const int*, const double*, const int*, const double*, double*, const int*);
 
 namespace topple::solver {
 
@@ -22,9 +20,10 @@ Panel panel_of(const MultifrontalFactor& factor, std::size_t front) {
 
 Eigen::MatrixXd times_transpose(const Eigen::MatrixXd& matrix) {
   const int n = static_cast<int>(matrix.rows());
-  constexpr double one = 1, none = 0;
-  Eigen::MatrixXd product(n, n);
-  dgemm_("N", "T", &n, &n, &n, &one, matrix.data(), &n, matrix.data(), &n, &none, product.data(), &n);
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(n, n);
+  const Eigen::MatrixXd transposed = -matrix.transpose();
+  for (int j = 0; j < n; ++j)
+    subtract_combination(matrix.data(), n, n, n, transposed.col(j).data(), product.col(j).data());
   return product;
 }
 

@@ -8,41 +8,19 @@
 #include "factor/vector_versions.h"
 #include "reanalysis/work_count.h"
 
-extern "C" {
-void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
-            const int*, double*, const int*);
-void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
-            const double*, const int*, const double*, double*, const int*);
-}
-
 namespace topple::solver {
 namespace {
-
-/// Blocks with fewer entries than this are done by plain passes: a call of BLAS costs more than they do.
-constexpr int small_block = 1024;
-/// Up to so many right-hand sides BLAS loses to a plain pass over the block.
-constexpr int few_right_hand_sides = 12;
-constexpr double plus = 1, none = 0;
 
 /// One block of the factor: `columns` dense columns of `rows` entries, the triangle first.
 struct Block {
   const double* value;
   int columns, rows;
   [[nodiscard]] int below() const { return rows - columns; }
-  [[nodiscard]] bool small() const { return columns * rows < small_block; }
 };
 
 /// x (the block's own rows, a column each) := triangle^-1 x; below := rectangle x.
 void forward_block(const Block& b, double* x, int count, double* below) {
-  const int below_rows = b.below();
-  if (count <= few_right_hand_sides || b.small()) {
-    eliminate_right_hand_sides(b.value, b.columns, b.rows, x, count, below);
-    return;
-  }
-  dtrsm_("L", "L", "N", "N", &b.columns, &count, &plus, b.value, &b.rows, x, &b.columns);
-  if (below_rows > 0)
-    dgemm_("N", "N", &below_rows, &count, &b.columns, &plus, b.value + b.columns, &b.rows, x, &b.columns, &none, below,
-           &below_rows);
+  eliminate_right_hand_sides(b.value, b.columns, b.rows, x, count, below);
 }
 
 template <class Eight>
