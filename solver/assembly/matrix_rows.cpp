@@ -198,8 +198,8 @@ double MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, 
 
 void MatrixRows::find_rows_above(double error, const Eigen::VectorXd& r, std::vector<int>& rows) const {
   rows.clear();
-  rows.reserve(static_cast<std::size_t>(
-      r.size()));  // how many are off hangs on rounding, and later answers are to ask for no memory
+  // How many are off hangs on rounding, and later answers are to ask for no memory.
+  rows.reserve(static_cast<std::size_t>(r.size()));
   for (Eigen::Index i = 0; i < r.size(); ++i)
     if (std::abs(r(i)) > error * size_(i)) rows.push_back(static_cast<int>(i));
 }

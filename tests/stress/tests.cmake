@@ -53,6 +53,8 @@ if(Python3_FOUND)
   add_test(NAME hostile COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/hostile.py" "$<TARGET_FILE_DIR:topple>" --cases 150)
   add_test(NAME faults COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/faults/faults.py" "$<TARGET_FILE_DIR:topple>" --short)
   add_test(NAME "runs into one folder at the same time" COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/together.py" "$<TARGET_FILE:topple>")
+  add_test(NAME "collapses have the same bits with the BLAS kernels of other processors"
+    COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/blas_kernels.py" "$<TARGET_FILE:topple>")
   set_tests_properties(faults PROPERTIES ENVIRONMENT "CXX=${CMAKE_CXX_COMPILER}")
   set_tests_properties(hostile faults PROPERTIES TIMEOUT 600)
 endif()
