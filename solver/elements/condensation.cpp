@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "factor/multiple_right_hand_sides.h"
-#include "parallel/one_blas_thread.h"
 
 namespace topple::solver {
 
@@ -20,11 +19,10 @@ Panel panel_of(const MultifrontalFactor& factor, std::size_t front) {
 
 Eigen::MatrixXd times_transpose(const Eigen::MatrixXd& matrix) {
   const int n = static_cast<int>(matrix.rows());
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(n, n);
-  const Eigen::MatrixXd transposed = -matrix.transpose();
-  for (int j = 0; j < n; ++j)
-    subtract_combination(matrix.data(), n, n, n, transposed.col(j).data(), product.col(j).data());
-  return product;
+  const Eigen::MatrixXd rows = matrix.transpose();
+  Eigen::MatrixXd minus = Eigen::MatrixXd::Zero(n, n);
+  for (int j = 0; j < n; ++j) subtract_combination(matrix.data(), n, n, n, rows.col(j).data(), minus.col(j).data());
+  return -minus;
 }
 
 }  // namespace
@@ -34,7 +32,6 @@ Condensation::Condensation(const SparseSymmetric& pattern, int inner, const std:
   if (std::any_of(order.begin(), order.begin() + inner, [&](int row) { return row >= inner; }))
     throw std::invalid_argument("condensation: the kept rows are not the last to be eliminated");
   if (pattern.size == 0) return;
-  use_one_blas_thread();
   factor_.emplace(pattern, order, 1);
   // Fronts are numbered by subtrees: inner ones may come after kept ones on which they do not depend.
   const Supernodes& fronts = factor_->fronts();

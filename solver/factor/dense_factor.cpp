@@ -139,7 +139,7 @@ int DenseFactor::largest_inverse_column() const {
   double largest = 0;
   constexpr int most_steps = 5;  // as LAPACK's; it nearly always ends after two or three
   for (int step = 0; step < most_steps; ++step) {
-    dgetrs_("N", &size_, &one, value_.data(), &capacity_, pivot_.data(), x.data(), &size_, &info);
+    solve(x.data());
     double norm = 0;
     for (std::size_t i = 0; i < n; ++i) {
       if (!std::isfinite(x[i])) return best;

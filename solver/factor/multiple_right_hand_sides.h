@@ -1,7 +1,7 @@
 #pragma once
-// Elimination with a dense block of a factor for a handful of right-hand sides (an element has six): BLAS packs the
-// block for such calls, which costs more than the arithmetic; here it is read once, eight columns at a time. The same
-// goes for a handful of columns that meet one vector.
+// Elimination with a dense block of a factor, for one right-hand side or many. For a handful (an element has six) BLAS
+// packs the block, which costs more than the arithmetic; here it is read once, eight columns at a time. For many BLAS
+// would gain a little, but sums in the order of its processor. The same goes for columns that meet one vector.
 
 namespace topple::solver {
 

@@ -18,11 +18,6 @@ struct Block {
   [[nodiscard]] int below() const { return rows - columns; }
 };
 
-/// x (the block's own rows, a column each) := triangle^-1 x; below := rectangle x.
-void forward_block(const Block& b, double* x, int count, double* below) {
-  eliminate_right_hand_sides(b.value, b.columns, b.rows, x, count, below);
-}
-
 template <class Eight>
 [[gnu::always_inline]] inline void subtract(const double* from, const RowsInLine& run, double* to) {
   each_lanes<Eight>(
@@ -32,27 +27,34 @@ template <class Eight>
 }
 
 template <class Eight>
-[[gnu::always_inline]] inline void gather(const double* from, const RowsInLine& run, double* to) {
-  each_lanes<Eight>(
-      run.count, [&]([[maybe_unused]] auto lanes, int i) __attribute__((always_inline)) {
-        lanes_at<decltype(lanes)>(to + run.from + i) = lanes_at<decltype(lanes)>(from + run.row + i);
-      });
+[[gnu::always_inline]] inline void gather_runs(std::span<const RowsInLine> runs, const double* y, double* compact) {
+  for (const RowsInLine& run : runs)
+    each_lanes<Eight>(
+        run.count, [&]([[maybe_unused]] auto lanes, int i) __attribute__((always_inline)) {
+          lanes_at<decltype(lanes)>(compact + run.from + i) = lanes_at<decltype(lanes)>(y + run.row + i);
+        });
+}
+template <class Eight>
+[[gnu::always_inline]] inline void subtract_runs(std::span<const RowsInLine> runs, const double* compact, double* y) {
+  for (const RowsInLine& run : runs) subtract<Eight>(compact, run, y + run.row);
+}
+template <class Eight>
+[[gnu::always_inline]] inline void subtract_runs_from_end(std::span<const RowsInLine> runs, const double* compact,
+                                                          double* end) {
+  for (const RowsInLine& run : runs) subtract<Eight>(compact, run, end - run.from_end);
 }
 
 /// compact := the runs' rows of y.
 TOPPLE_EIGHT_LANES(void gather_rows(std::span<const RowsInLine> runs, const double* y, double* compact),
-                   for (const RowsInLine& run
-                        : runs) gather<Eight>(y, run, compact);)
+                   gather_runs<Eight>(runs, y, compact);)
 
 /// The runs' rows of y -= compact.
 TOPPLE_EIGHT_LANES(void subtract_rows(std::span<const RowsInLine> runs, const double* compact, double* y),
-                   for (const RowsInLine& run
-                        : runs) subtract<Eight>(compact, run, y + run.row);)
+                   subtract_runs<Eight>(runs, compact, y);)
 
 /// The same on a path that ends there.
 TOPPLE_EIGHT_LANES(void subtract_rows_from_end(std::span<const RowsInLine> runs, const double* compact, double* end),
-                   for (const RowsInLine& run
-                        : runs) subtract<Eight>(compact, run, end - run.from_end);)
+                   subtract_runs_from_end<Eight>(runs, compact, end);)
 
 }  // namespace
 
@@ -238,7 +240,7 @@ void TriangularSolver::forward_block_of(std::size_t b, std::span<const PathColum
   each_column([&](double* end, int at) {
     std::copy(end - own, end - own + block.columns, x + static_cast<std::ptrdiff_t>(at) * block.columns);
   });
-  forward_block(block, x, count, below);
+  eliminate_right_hand_sides(block.value, block.columns, block.rows, x, count, below);
   each_column([&](double* end, int at) {
     const double* from = x + static_cast<std::ptrdiff_t>(at) * block.columns;
     std::copy(from, from + block.columns, end - own);

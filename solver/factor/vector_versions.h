@@ -5,6 +5,9 @@
 //   TOPPLE_EIGHT_LANES(DECLARATION, STATEMENTS): `Eight` are eight lanes in as many vectors as the processor needs.
 //   Where one vector is longer than its registers, the compiler takes it to memory and back number by number, which
 //   is several times slower.
+#include <type_traits>
+#include <utility>
+
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define TOPPLE_VECTOR_VERSIONS __attribute__((target_clones("avx512f", "avx2", "default")))
@@ -37,9 +40,6 @@
 #else
 #define TOPPLE_UNROLLED
 #endif
-
-#include <type_traits>
-#include <utility>
 
 namespace topple::solver {
 
